@@ -60,5 +60,31 @@ TEST(CollapseIntersections, KnowWhatEarlierCollapsesMoved) {
   EXPECT_TRUE(find_self_intersections(result).empty());
 }
 
+TEST(CollapseIntersections, OfFlipsAgreeWithASearchOverTheWholeSurface) {
+  TriMesh inner = small_sphere();
+  const TriMesh outer = small_sphere();
+  for (Vec3& p : inner.points) p = 0.985 * p;
+  for (Triangle& t : inner.triangles) std::swap(t[1], t[2]);
+  Collapses now(joined(outer, inner));
+  ASSERT_TRUE(find_self_intersections(now.now()).empty());
+  CollapseIntersections intersections(now.surface, now.points, {});
+  int refused = 0, made = 0;
+  for (Index h = 0; h < 3 * now.surface.count(); h += 3) {
+    if (!now.surface.may_flip(h)) continue;
+    const Flip flip = describe_flip(now.surface, now.points, h);
+    now.surface.flip(h);
+    const bool clean = find_self_intersections(now.now()).empty();
+    EXPECT_EQ(!intersections.occur(now.surface, now.points, flip), clean);
+    (clean ? made : refused) += 1;
+    if (clean) {
+      intersections.apply(flip);
+    } else {
+      now.surface.flip_back(h);
+    }
+  }
+  EXPECT_GT(refused, 10);
+  EXPECT_GT(made, 10);
+}
+
 }  // namespace
 }  // namespace mesamis

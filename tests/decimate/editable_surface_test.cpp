@@ -105,6 +105,42 @@ TEST(EditableSurface, KeepsItsRimThroughAllCollapses) {
   EXPECT_LT(now.now().triangles.size(), 10u);
 }
 
+TEST(EditableSurface, StaysAManifoldThroughAllFlipsAndGoesBack) {
+  for (const TriMesh& mesh : {small_sphere(), small_bowl()}) {
+    Collapses now(mesh);
+    const SurfaceCheck before = check_surface(now.now());
+    std::mt19937 generator(1);
+    int done = 0;
+    for (int n = 0; n < 3000; ++n) {
+      const auto h =
+          static_cast<Index>(generator() % static_cast<unsigned>(3 * now.surface.count()));
+      if (now.surface.opposite(h) == kNoIndex || !now.surface.may_flip(h)) continue;
+      const std::vector<Triangle> was = now.now().triangles;
+      const Index right = now.surface.from(EditableSurface::previous(now.surface.opposite(h))),
+                  left = now.surface.from(EditableSurface::previous(h));
+      now.surface.flip(h);
+      EXPECT_EQ(now.surface.from(h), right);
+      EXPECT_EQ(now.surface.to(h), left);
+      if (++done % 40 == 0) expect_consistent(now);
+      if (done % 3 != 0) continue;
+      now.surface.flip_back(h);
+      EXPECT_EQ(now.now().triangles, was);
+    }
+    EXPECT_GT(done, 1000);
+    const SurfaceCheck after = check_surface(now.now());
+    EXPECT_EQ(flaws_of(after), flaws_of(before));
+    EXPECT_EQ(after.open_edges, before.open_edges);
+    EXPECT_EQ(after.components, before.components);
+  }
+}
+
+TEST(EditableSurface, RefusesFlipsThatWouldPinch) {
+  const TriMesh tetrahedron{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                            {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+  const EditableSurface surface(4, tetrahedron.triangles);
+  for (Index h = 0; h < 12; ++h) EXPECT_FALSE(surface.may_flip(h));
+}
+
 TEST(EditableSurface, KnowsItsRim) {
   TriMesh open = small_sphere();
   const Triangle hole = open.triangles.back();

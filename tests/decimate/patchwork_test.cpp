@@ -87,7 +87,7 @@ Patch part(const TriMesh& surface, Index begin, Index end) {
 
 TEST(Patchwork, PatchesThatWouldMeetAreMadeAnew) {
   const TriMesh lower = neighbours(-1);
-  const Work work(joined(lower, neighbours(1)), 0.4);
+  const Work work(joined(lower, neighbours(1)), 0.3);
   ASSERT_TRUE(find_self_intersections(work.surface).empty());
   const auto first = static_cast<Index>(lower.points.size());
   const auto end = static_cast<Index>(work.surface.points.size());
@@ -116,7 +116,7 @@ TEST(Patchwork, PatchesThatWouldMeetAreMadeAnew) {
 /// it lies to what moves.
 TEST(Patchwork, ARestStaysAndIsNotMet) {
   const TriMesh lower = neighbours(-1);
-  Work work(joined(lower, neighbours(1)), 0.4);
+  Work work(joined(lower, neighbours(1)), 0.3);
   int met = 0;
   for (int trial = 0; trial < 12; ++trial) {
     std::vector<char> open(work.surface.points.size(), 0);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "decimate/collapses.h"
 #include "mesamis/decimate/fan_height.h"
@@ -101,6 +102,66 @@ TEST(TwoSidedBound, HoldsThroughManyCollapses) {
   EXPECT_LE(std::max(to, from), kTolerance);
   EXPECT_LE(max_distance(result, mesh, 1e-3), to * kDistanceSlack + 1e-3);
   EXPECT_LE(max_distance(mesh, result, 1e-3), from * kDistanceSlack + 1e-3);
+}
+
+TEST(TwoSidedBound, OfFlipsAgreesWithTheDistanceOfTheWholeSurfaces) {
+  const TriMesh mesh = small_sphere();
+  Collapses now(mesh);
+  const Cover cover = cover_of(mesh);
+  TwoSidedBound bound(mesh, cover, std::vector<char>(mesh.points.size(), 0), kTolerance);
+  int refused = 0, allowed = 0;
+  for (Index h = 0; h < 3 * now.surface.count(); ++h) {
+    if (now.surface.opposite(h) < h || !now.surface.may_flip(h)) continue;
+    Flip flip = describe_flip(now.surface, now.points, h);
+    now.surface.flip(h);
+    const double distance = distance_between(now.now(), mesh);
+    for (const double height : {flip.height, std::numeric_limits<double>::infinity()}) {
+      flip.height = height;
+      if (bound.allows(now.surface, flip)) {
+        ++allowed;
+        EXPECT_LE(distance, kDistanceSlack * kTolerance);
+      } else {
+        ++refused;
+        EXPECT_GE(distance + 1e-3, kTolerance / 1.1);
+      }
+    }
+    now.surface.flip_back(h);
+  }
+  EXPECT_GT(refused, 10);
+  EXPECT_GT(allowed, 10);
+}
+
+TEST(TwoSidedBound, HoldsThroughManyFlips) {
+  const TriMesh mesh = coarse_sphere();
+  Collapses now(mesh);
+  const Cover cover = cover_of(mesh);
+  TwoSidedBound bound(mesh, cover, std::vector<char>(mesh.points.size(), 0), kTolerance);
+  int done = 0;
+  for (int round = 0; round < 3; ++round) {
+    for (Index h = 0; h < 3 * now.surface.count(); ++h) {
+      if (now.surface.opposite(h) < h || !now.surface.may_flip(h)) continue;
+      const Flip flip = describe_flip(now.surface, now.points, h);
+      now.surface.flip(h);
+      if (bound.allows(now.surface, flip)) {
+        bound.apply(flip);
+        ++done;
+      } else {
+        now.surface.flip_back(h);
+      }
+    }
+  }
+  EXPECT_GT(done, 500);
+  double to = 0, from = 0;
+  std::vector<char> stood(mesh.triangles.size(), 0);
+  for (Index t = 0; t < now.surface.count(); ++t) {
+    to = std::max(to, bound.to_originals_of(t));
+    from = std::max(from, bound.from_originals_of(t));
+    for (const Index o : bound.originals_of(t)) stood[o] = 1;
+  }
+  EXPECT_EQ(std::count(stood.begin(), stood.end(), 0), 0) << "every original is stood for";
+  EXPECT_LE(std::max(to, from), kTolerance);
+  EXPECT_LE(max_distance(now.now(), mesh, 1e-3), to * kDistanceSlack + 1e-3);
+  EXPECT_LE(max_distance(mesh, now.now(), 1e-3), from * kDistanceSlack + 1e-3);
 }
 
 /// Triangles that stay are not looked into, but may come to stand for more.

@@ -9,19 +9,8 @@
 namespace mesamis::detail::decimate {
 namespace {
 
-/// Cosine of the angle by which a triangle may turn, 75 degrees.
-constexpr double kTurn = 0.2588;
 /// By so much the creases of a neighbourhood may grow in a collapse: none appear where there are none.
 constexpr double kMostCreases = 1.1;
-/// Height over longest side, squared.
-constexpr double kFlattest = 0.01 * 0.01;
-
-double flatness(const Corners& t) {
-  const Vec3 a = t[1] - t[0], b = t[2] - t[1], c = t[0] - t[2];
-  const double longest = std::max({dot(a, a), dot(b, b), dot(c, c)});
-  const Vec3 n = cross(a, b);
-  return longest > 0 ? dot(n, n) / (longest * longest) : 0;
-}
 
 Corners corners_at(const EditableSurface& surface, const std::vector<Vec3>& points, Index t) {
   const Triangle k = surface.triangle(t);
@@ -108,10 +97,17 @@ void add_face(const EditableSurface& surface, const std::vector<Vec3>& points, I
 
 }  // namespace
 
+double flatness(const Corners& t) {
+  const Vec3 a = t[1] - t[0], b = t[2] - t[1], c = t[0] - t[2];
+  const double longest = std::max({dot(a, a), dot(b, b), dot(c, c)});
+  const Vec3 n = cross(a, b);
+  return longest > 0 ? dot(n, n) / (longest * longest) : 0;
+}
+
 double crease_at(const Vec3& from, const Vec3& to, const Vec3& left, const Vec3& right) {
   const double excess = kCrease - dot(left, right);
   if (!(excess > 0) || dot(left, left) == 0 || dot(right, right) == 0) return 0;
-  return excess * norm(to - from);
+  return std::min(excess, kCrease - kSharpCrease) * norm(to - from);
 }
 
 bool creases_grow(double before, double after) {
@@ -161,7 +157,7 @@ bool spoils_shape(const EditableSurface& surface, const std::vector<Vec3>& point
     const double before = flatness(corners_at(surface, points, collapse.faces[i]));
     flattest = std::min(flattest, before);
     // The normals of needles say little.
-    if (before > kFlattest && dot(normals[collapse.faces[i]], now[i]) < kTurn) return true;
+    if (before > kFlattest && dot(normals[collapse.faces[i]], now[i]) < kMostTurned) return true;
   }
   for (const Corners& t : collapse.after) {
     if (flatness(t) < flattest) return true;

@@ -60,8 +60,17 @@ void for_each_side_at_kept(const EditableSurface& surface, const Collapse& colla
   if (o != kNoIndex) visit(EditableSurface::previous(o), false);
 }
 
+/// Cosine of the angle, 75 degrees, by which a triangle that is no needle may turn.
+inline constexpr double kMostTurned = 0.2588;
+/// The least flatness() that changes may make.
+inline constexpr double kFlattest = 0.01 * 0.01;
+
+/// Squared height over longest side of a triangle, squared.
+double flatness(const Corners& t);
+
 /// The share of an edge in the creases of a surface: its length, mm, times by how much the cosine
-/// between the triangles beside it, of these unit normals, is less than kCrease.
+/// between the triangles beside it, of these unit normals, is less than kCrease; at most as at
+/// kSharpCrease.
 double crease_at(const Vec3& from, const Vec3& to, const Vec3& left, const Vec3& right);
 
 /// Whether creases have grown by more than a tenth.
@@ -70,7 +79,7 @@ bool creases_grow(double before, double after);
 /// Whether a triangle that is no needle would turn by more than 75 degrees, or one become nearly
 /// degenerate (height below 0.01 of its longest side, and below that of the flattest triangle before),
 /// or the creases around grow by more than a tenth: the sum over edges of their length times the
-/// cosine of kCrease less that of the edge.
+/// cosine of kCrease less that of the edge, see crease_at().
 /// @param normals   of each triangle, unit length or 0.
 /// @param creases   whether these count.
 bool spoils_shape(const EditableSurface& surface, const std::vector<Vec3>& points,

@@ -69,20 +69,11 @@ bool CollapseIntersections::meets(const std::vector<Vec3>& points, const Triangl
   return intersect(points, first(a), first(b));
 }
 
-/// The triangles that stay and may meet one that changes.
+/// The triangles that stay and reach into a box.
+template <class Changes>
 void CollapseIntersections::look_near(const EditableSurface& surface,
-                                      const std::vector<Vec3>& points,
-                                      std::span<const Collapse> collapses) {
-  Box whole = kNoBox;
-  for (const Collapse& collapse : collapses) {
-    for (const Corners& t : collapse.after) whole = united(whole, bounding_box(t));
-  }
-  const auto changes = [&collapses](Index t) {
-    return std::any_of(collapses.begin(), collapses.end(), [t](const Collapse& c) {
-      return t == c.beside[0] || t == c.beside[1] ||
-             std::find(c.faces.begin(), c.faces.end(), t) != c.faces.end();
-    });
-  };
+                                      const std::vector<Vec3>& points, const Box& whole,
+                                      Changes&& changes) {
   near_.clear();
   tree_.for_each_overlap(whole, [&](std::size_t other) {
     const auto t = static_cast<Index>(other);
@@ -108,7 +99,16 @@ bool CollapseIntersections::meets_others(const std::vector<Vec3>& points,
 
 bool CollapseIntersections::occur(const EditableSurface& surface, std::vector<Vec3>& points,
                                   std::span<const Collapse> collapses) {
-  look_near(surface, points, collapses);
+  Box whole = kNoBox;
+  for (const Collapse& collapse : collapses) {
+    for (const Corners& t : collapse.after) whole = united(whole, bounding_box(t));
+  }
+  look_near(surface, points, whole, [&collapses](Index t) {
+    return std::any_of(collapses.begin(), collapses.end(), [t](const Collapse& c) {
+      return t == c.beside[0] || t == c.beside[1] ||
+             std::find(c.faces.begin(), c.faces.end(), t) != c.faces.end();
+    });
+  });
   before_.clear();
   changed_.clear();
   for (const Collapse& collapse : collapses) {
@@ -130,6 +130,22 @@ bool CollapseIntersections::occur(const EditableSurface& surface, std::vector<Ve
   }
   for (std::size_t c = 0; c < collapses.size(); ++c) points[collapses[c].kept] = before_[c];
   return found;
+}
+
+bool CollapseIntersections::occur(const EditableSurface& surface, const std::vector<Vec3>& points,
+                                  const Flip& flip) {
+  const auto [t, u] = flip.faces;
+  look_near(surface, points, united(bounding_box(flip.after[0]), bounding_box(flip.after[1])),
+            [&flip](Index k) { return k == flip.faces[0] || k == flip.faces[1]; });
+  const Changed one{surface.triangle(t), flip.after[0]}, other{surface.triangle(u), flip.after[1]};
+  return meets_others(points, one) || meets_others(points, other) ||
+         meets(points, one.triangle, other.triangle);
+}
+
+void CollapseIntersections::apply(const Flip& flip) {
+  for (std::size_t i = 0; i < flip.faces.size(); ++i) {
+    tree_.update(static_cast<std::size_t>(flip.faces[i]), bounding_box(flip.after[i]));
+  }
 }
 
 void CollapseIntersections::apply(const Collapse& collapse) {

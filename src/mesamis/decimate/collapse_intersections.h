@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesamis/decimate/collapse.h"
+#include "mesamis/decimate/flip.h"
 #include "mesamis/surface/box_tree.h"
 
 namespace mesamis::detail::decimate {
@@ -22,8 +23,11 @@ class CollapseIntersections {
   /// @param collapses  made at once: one, or those of all interfaces at an edge of a curve.
   bool occur(const EditableSurface& surface, std::vector<Vec3>& points,
              std::span<const Collapse> collapses);
+  /// The same for a flip that has been made.
+  bool occur(const EditableSurface& surface, const std::vector<Vec3>& points, const Flip& flip);
   /// Takes over a collapse that has been done.
   void apply(const Collapse& collapse);
+  void apply(const Flip& flip);
 
  private:
   struct Changed {
@@ -32,8 +36,9 @@ class CollapseIntersections {
   };
 
   bool meets(const std::vector<Vec3>& points, const Triangle& a, const Triangle& b) const;
-  void look_near(const EditableSurface& surface, const std::vector<Vec3>& points,
-                 std::span<const Collapse> collapses);
+  template <class Changes>
+  void look_near(const EditableSurface& surface, const std::vector<Vec3>& points, const Box& whole,
+                 Changes&& changes);
   bool meets_others(const std::vector<Vec3>& points, const Changed& own) const;
 
   std::vector<Index> first_copies_;

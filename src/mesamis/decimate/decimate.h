@@ -29,7 +29,8 @@ struct DecimateReport {
 /// Reduces the number of triangles while the surface stays within a tolerance.
 ///
 /// Edges are collapsed nearly in the order of their quadric error, on flat parts in the order of
-/// their length, to the place where that error is least (Garland and Heckbert 1997). Points on
+/// their length, to the place where that error is least (Garland and Heckbert 1997) or one near the
+/// edge; within a tolerance edges flip, too, where that makes the surface smoother. Points on
 /// planes across an axis, as where the box of a scan cuts the object, stay on them. All new points
 /// are values of single precision.
 ///

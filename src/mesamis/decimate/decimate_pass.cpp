@@ -14,6 +14,7 @@
 #include "mesamis/decimate/collapse_intersections.h"
 #include "mesamis/decimate/curves.h"
 #include "mesamis/decimate/fan_height.h"
+#include "mesamis/decimate/flip.h"
 #include "mesamis/decimate/quadric.h"
 #include "mesamis/decimate/two_sided_bound.h"
 #include "mesamis/mesh/tet_mesh.h"
@@ -79,6 +80,7 @@ class Pass {
           task_.progress(std::min(done, 1.0));
         }
       }
+      if (bound_ && round == 0) any |= flip_edges();
       if (any) {
         push_woken();
       } else if (!bound_ && !relaxed_) {
@@ -266,7 +268,8 @@ class Pass {
     return joins;
   }
 
-  /// Collapses an edge to the best place, or onto one of its ends, if that is allowed.
+  /// Collapses an edge to the best place, half of the way from there to its middle, or onto one of its
+  /// ends, if that is allowed: beyond a bend, the best place is outside of it.
   bool try_to(Index h) {
     const Edge edge = edge_at(h);
     const std::optional<Vec3> place = place_of(edge);
@@ -277,10 +280,12 @@ class Pass {
     if (!bound_ && !relaxed_) return false;  // another end would cost more
     if ((!relaxed_ && edge.a_planes != edge.b_planes) || edge.a_stays || edge.b_stays) return false;
     const Vec3 first = *place == to ? from : to, second = first == to ? from : to;
-    const auto may_go_to = [&](const Vec3& end) {
-      return !is_hopeless(edge.quadric, end) && may_become(h, edge, end) && become();
+    const Vec3 between = rounded(0.5 * *place + 0.25 * (from + to));
+    const auto may_go_to = [&](const Vec3& other) {
+      return other != *place && !is_hopeless(edge.quadric, other) && may_become(h, edge, other) &&
+             become();
     };
-    return may_go_to(first) || (is_new && may_go_to(second));
+    return (is_new && may_go_to(between)) || may_go_to(first) || may_go_to(second);
   }
 
   /// Whether the shapes of the triangles allow a collapse to a place.
@@ -369,6 +374,59 @@ class Pass {
     left_ -= collapse.at_rim ? 1 : 2;
     ++stamps_[collapse.removed];
     ++stamps_[collapse.kept];
+  }
+
+  /// Flips edges where that makes the surface smoother: then more can be collapsed.
+  bool flip_edges() {
+    bool any = false;
+    for (Index h = 0; h < 3 * surface_.count(); ++h) any |= may_flip(h) && flip(h);
+    return any;
+  }
+
+  /// Whether two points keep to the same plane, as where the box of a scan cuts the object.
+  bool are_on_a_plane(Index a, Index b) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int i = static_cast<int>(axis);
+      if (planes_[a][axis] && planes_[b][axis] && points_[a][i] == points_[b][i]) return true;
+    }
+    return false;
+  }
+
+  /// Each edge is looked at by one of its half-edges. Triangles at rims stay.
+  bool may_flip(Index h) const {
+    if (surface_.is_removed(h / 3)) return false;
+    const Index o = surface_.opposite(h);
+    if (o == kNoIndex || o < h || bound_->stays(h / 3) || bound_->stays(o / 3)) return false;
+    for (const Index k : {h, o}) {
+      if (surface_.opposite(EditableSurface::next(k)) == kNoIndex ||
+          surface_.opposite(EditableSurface::previous(k)) == kNoIndex) {
+        return false;
+      }
+    }
+    const Index left = surface_.from(EditableSurface::previous(h)),
+                right = surface_.from(EditableSurface::previous(o));
+    // Other patches may have an edge between points that both have.
+    if (held_[left] != 0 && held_[right] != 0) return false;
+    if (are_on_a_plane(surface_.from(h), surface_.to(h)) || are_on_a_plane(left, right))
+      return false;
+    return (!curves_ || curves_->may_join(surface_, left, right)) && surface_.may_flip(h);
+  }
+
+  bool flip(Index h) {
+    const Flip flip = describe_flip(surface_, points_, h);
+    if (!smooths(surface_, points_, normals_, flip)) return false;
+    surface_.flip(h);
+    if (intersections_.occur(surface_, points_, flip) || !bound_->allows(surface_, flip)) {
+      surface_.flip_back(h);
+      return false;
+    }
+    bound_->apply(flip);
+    intersections_.apply(flip);
+    for (std::size_t i = 0; i < flip.faces.size(); ++i) {
+      normals_[flip.faces[i]] = unit_normal(flip.after[i]);
+      for (const Index p : surface_.triangle(flip.faces[i])) wake(p);
+    }
+    return true;
   }
 
   void wake(Index p) {

@@ -71,6 +71,43 @@ bool EditableSurface::may_collapse(Index h) const {
   return common == 0 && !splits;
 }
 
+bool EditableSurface::may_flip(Index h) const {
+  const Index a = from(h), b = to(h);
+  const Index c = from(previous(h)), d = from(previous(opposite(h)));
+  if (c == d || triangles_at(a) <= 3 || triangles_at(b) <= 3) return false;
+  bool joined = false;
+  for_each_neighbor(c, [&](Index q) { joined |= q == d; });
+  return !joined;
+}
+
+void EditableSurface::flip(Index h) {
+  const Index o = opposite(h);
+  const Index h_next = next(h), h_previous = previous(h), o_next = next(o),
+              o_previous = previous(o);
+  const Index a = from(h), b = to(h), c = from(h_previous), d = from(o_previous);
+  const Index beside_bc = opposite(h_next), beside_ca = opposite(h_previous),
+              beside_ad = opposite(o_next), beside_db = opposite(o_previous);
+  corners_[h] = d, corners_[h_next] = c, corners_[h_previous] = a;
+  corners_[o] = c, corners_[o_next] = d, corners_[o_previous] = b;
+  const auto put = [this](Index k, Index beside) {
+    opposite_[k] = beside;
+    if (beside != kNoIndex) opposite_[beside] = k;
+  };
+  put(h_next, beside_ca);
+  put(h_previous, beside_ad);
+  put(o_next, beside_db);
+  put(o_previous, beside_bc);
+  // The first of those that leave a point stays the first.
+  if (leaving_[a] == h || leaving_[a] == o_next) leaving_[a] = h_previous;
+  if (leaving_[b] == o || leaving_[b] == h_next) leaving_[b] = o_previous;
+  if (leaving_[c] == h_previous) leaving_[c] = h_next;
+  if (leaving_[d] == o_previous) leaving_[d] = o_next;
+}
+
+void EditableSurface::flip_back(Index h) {
+  for (int turn = 0; turn < 3; ++turn) flip(h);  // four are a whole turn
+}
+
 bool EditableSurface::may_collapse_at_rim(Index h, Index removed) const {
   const Index at_removed = from(h) == removed ? previous(h) : next(h);
   if (opposite(at_removed) == kNoIndex) return false;

@@ -74,6 +74,16 @@ class EditableSurface {
   /// Removes the first point of a half-edge and the triangles on both sides of it.
   void collapse(Index h);
 
+  /// Whether the edge of a half-edge that is not at a rim may give way to one between the two points
+  /// opposite to it: these have none yet, and its ends keep three triangles or more.
+  bool may_flip(Index h) const;
+
+  /// Flips it. Its half-edges are those of the new edge: this one now runs from the point to its right
+  /// to the one to its left.
+  void flip(Index h);
+  /// Takes the last flip back.
+  void flip_back(Index h);
+
   /// The same for a half-edge at a rim of which one end is to go: whether the surface stays a
   /// 2-manifold with as many rims.
   bool may_collapse_at_rim(Index h, Index removed) const;

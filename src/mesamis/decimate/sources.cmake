@@ -29,6 +29,7 @@ set(ROOM_SOURCES
   round_together.cpp
   editable_surface.cpp
   fan_height.cpp
+  flip.cpp
   interfaces.cpp
   collapse_intersections.cpp
   NEXT decimation.cpp

@@ -105,30 +105,46 @@ std::vector<Index> TwoSidedBound::originals_of(Index triangle) const {
 bool TwoSidedBound::allows(const EditableSurface& surface, const std::vector<Vec3>& points,
                            const Collapse& collapse) {
   if (!ends_are_near(points, collapse)) return false;
+  start();
   gather(collapse);
-  uses_.clear();
-  next_.clear();
   see_after(collapse);
-  Bounds lifted = bounds_before(collapse);
-  lifted.to_originals += collapse.height;
-  lifted.from_originals += collapse.height;
-  if (std::max(lifted.to_originals, lifted.from_originals) <= tolerance_) {
-    lift(lifted, collapse);
-    return true;
+  const Bounds lifted = bounds_after(collapse.height, {collapse.faces, collapse.gone()});
+  if (lift(lifted, collapse.faces)) return true;
+  if (!old_are_near({surface, triangles_, &collapse}, collapse.faces)) return false;
+  next_.assign(collapse.faces.size(), {lifted.to_originals, 0});
+  return lifted.to_originals <= tolerance_ || new_are_near(collapse.faces);
+}
+
+bool TwoSidedBound::allows(const EditableSurface& surface, const Flip& flip) {
+  start();
+  for (const Index t : flip.faces) gather(t, t);
+  for (const Corners& t : flip.after) after_.emplace_back(t);
+  const Bounds lifted = bounds_after(flip.height, {flip.faces});
+  if (lift(lifted, flip.faces)) return true;
+  around_number_.assign(flip.faces.begin(), flip.faces.end());
+  for (const Index t : flip.faces) {
+    for (const Index p : surface.triangle(t)) {
+      surface.for_each_leaving(p, [this](Index h) { add_once(around_number_, h / 3); });
+    }
   }
+  for (const Index t : around_number_) around_.push_back(&triangles_[t]);
+  if (!old_are_near({surface, triangles_}, flip.faces)) return false;
+  next_.assign(flip.faces.size(), {lifted.to_originals, 0});
+  return lifted.to_originals <= tolerance_ || new_are_near(flip.faces);
+}
+
+void TwoSidedBound::start() {
+  ++collapse_count_;
+  affected_.clear();
+  after_.clear();
   around_.clear();
   around_number_.clear();
-  swap_after(collapse);
-  const bool old_are = old_are_near(surface, collapse);
-  swap_after(collapse);
-  if (!old_are) return false;
-  next_.assign(collapse.faces.size(), {lifted.to_originals, 0});
-  return lifted.to_originals <= tolerance_ || new_are_near(collapse);
+  uses_.clear();
+  next_.clear();
 }
 
 /// The triangles that come: their sides lie at the half-edges of the same numbers.
 void TwoSidedBound::see_after(const Collapse& collapse) {
-  after_.clear();
   for (std::size_t i = 0; i < collapse.after.size(); ++i) {
     const Corners& t = collapse.after[i];
     const auto at = static_cast<std::size_t>(collapse.outer[i] % 3);
@@ -139,18 +155,21 @@ void TwoSidedBound::see_after(const Collapse& collapse) {
 }
 
 /// Puts the triangles that come in the place of those before, or back.
-void TwoSidedBound::swap_after(const Collapse& collapse) {
-  for (std::size_t i = 0; i < after_.size(); ++i) {
-    std::swap(after_[i], triangles_[collapse.faces[i]]);
-  }
+void TwoSidedBound::swap_after(std::span<const Index> faces) {
+  for (std::size_t i = 0; i < after_.size(); ++i) std::swap(after_[i], triangles_[faces[i]]);
 }
 
 void TwoSidedBound::apply(const Collapse& collapse) {
   for (const Index t : collapse.gone()) lists_[t].clear();
-  for (std::size_t i = 0; i < collapse.faces.size(); ++i) {
-    lists_[collapse.faces[i]].clear();
-    bounds_[collapse.faces[i]] = next_[i];
-    triangles_[collapse.faces[i]] = after_[i];
+  replace(collapse.faces);
+}
+
+/// Puts what was found for the triangles that come in the place of those before.
+void TwoSidedBound::replace(std::span<const Index> faces) {
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    lists_[faces[i]].clear();
+    bounds_[faces[i]] = next_[i];
+    triangles_[faces[i]] = after_[i];
   }
   for (const Use& use : uses_) {
     std::vector<Index>& list = lists_[use.triangle];
@@ -170,37 +189,40 @@ bool TwoSidedBound::ends_are_near(const std::vector<Vec3>& points, const Collaps
   return is_near(collapse.removed) && (!collapse.moves || is_near(collapse.kept));
 }
 
-/// The originals that triangles stand for which change or go.
+/// The originals that a triangle stands for which changes or goes.
+void TwoSidedBound::gather(Index triangle, Index guess) {
+  for (const Index o : lists_[triangle]) {
+    if (seen_[o] == collapse_count_) continue;
+    seen_[o] = collapse_count_;
+    affected_.push_back({o, guess, 0});
+    for (const Index p : original_surface_.triangle(o)) seen_points_[p] = collapse_count_;
+  }
+}
+
 void TwoSidedBound::gather(const Collapse& collapse) {
-  ++collapse_count_;
-  affected_.clear();
-  const auto add = [this](Index t, Index guess) {
-    for (const Index o : lists_[t]) {
-      if (seen_[o] == collapse_count_) continue;
-      seen_[o] = collapse_count_;
-      affected_.push_back({o, guess, 0});
-      for (const Index p : original_surface_.triangle(o)) seen_points_[p] = collapse_count_;
-    }
-  };
-  for (const Index t : collapse.faces) add(t, t);
-  for (const Index t : collapse.gone()) add(t, collapse.faces[0]);
+  for (const Index t : collapse.faces) gather(t, t);
+  for (const Index t : collapse.gone()) gather(t, collapse.faces[0]);
 }
 
-TwoSidedBound::Bounds TwoSidedBound::bounds_before(const Collapse& collapse) const {
+/// What holds for all of some triangles after a change that is nowhere higher.
+TwoSidedBound::Bounds TwoSidedBound::bounds_after(
+    double height, std::initializer_list<std::span<const Index>> triangles) const {
   Bounds greatest;
-  const auto see = [&](Index t) {
-    greatest.to_originals = std::max(greatest.to_originals, bounds_[t].to_originals);
-    greatest.from_originals = std::max(greatest.from_originals, bounds_[t].from_originals);
-  };
-  for (const Index t : collapse.faces) see(t);
-  for (const Index t : collapse.gone()) see(t);
-  return greatest;
+  for (const auto some : triangles) {
+    for (const Index t : some) {
+      greatest.to_originals = std::max(greatest.to_originals, bounds_[t].to_originals);
+      greatest.from_originals = std::max(greatest.from_originals, bounds_[t].from_originals);
+    }
+  }
+  return {greatest.to_originals + height, greatest.from_originals + height};
 }
 
-/// Each triangle that comes stands for the originals that it may be near.
-void TwoSidedBound::lift(const Bounds& bounds, const Collapse& collapse) {
-  next_.assign(collapse.faces.size(), bounds);
-  for (std::size_t i = 0; i < collapse.faces.size(); ++i) {
+/// Whether bounds are within the tolerance; then each triangle that comes stands for the originals that
+/// it may be near.
+bool TwoSidedBound::lift(const Bounds& bounds, std::span<const Index> faces) {
+  if (!(std::max(bounds.to_originals, bounds.from_originals) <= tolerance_)) return false;
+  next_.assign(faces.size(), bounds);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
     Box reach = after_[i].box();
     for (int axis = 0; axis < 3; ++axis) {
       reach.lo[axis] -= bounds.from_originals;
@@ -210,15 +232,18 @@ void TwoSidedBound::lift(const Bounds& bounds, const Collapse& collapse) {
       const TrianglePlanes& original = originals_[a.original];
       if (overlap(reach, original.box()) &&
           !after_[i].is_beyond(original.corners(), bounds.from_originals)) {
-        uses_.push_back({a.original, collapse.faces[i], bounds.from_originals});
+        uses_.push_back({a.original, faces[i], bounds.from_originals});
       }
     }
   }
+  return true;
 }
 
 /// The triangles after a collapse, and those at the ends of what changes; once for a collapse.
-void TwoSidedBound::look_around(const EditableSurface& surface, const Collapse& collapse) {
+void TwoSidedBound::look_around(const WalkedSurface& on) {
   if (!around_.empty()) return;
+  const EditableSurface& surface = on.surface;
+  const Collapse& collapse = *on.collapse;
   around_number_ = collapse.faces;
   const auto see = [&](Index p) {
     surface.for_each_leaving(p, [&](Index h) {
@@ -242,7 +267,7 @@ bool TwoSidedBound::centers_are_near(const WalkedSurface& on) {
     a.guess = RimWalk::triangle_at(on, center, a.guess);
     a.distance = triangles_[a.guess].squared_distance_up_to(most, center);
     if (a.distance <= most) continue;
-    look_around(on.surface, *on.collapse);
+    look_around(on);
     for (std::size_t n = 0; a.distance > most && n < around_.size(); ++n) {
       const double distance =
           around_[n]->squared_distance_up_to(std::min(most, a.distance), center);
@@ -258,10 +283,13 @@ bool TwoSidedBound::centers_are_near(const WalkedSurface& on) {
   return true;
 }
 
-bool TwoSidedBound::old_are_near(const EditableSurface& surface, const Collapse& collapse) {
-  const WalkedSurface on{surface, triangles_, &collapse};
-  return centers_are_near(on) && std::all_of(affected_.begin(), affected_.end(),
-                                             [&](const Affected& a) { return is_near(a, on); });
+bool TwoSidedBound::old_are_near(const WalkedSurface& on, std::span<const Index> faces) {
+  swap_after(faces);
+  const bool are_near =
+      centers_are_near(on) && std::all_of(affected_.begin(), affected_.end(),
+                                          [&](const Affected& a) { return is_near(a, on); });
+  swap_after(faces);
+  return are_near;
 }
 
 /// Whether an original is near the surface; then it says which triangles stand for it.
@@ -271,7 +299,7 @@ bool TwoSidedBound::is_near(const Affected& a, const WalkedSurface& on) {
     for (const Index used : walk_.used(on)) uses_.push_back({a.original, used, distance});
     return true;
   }
-  look_around(on.surface, *on.collapse);
+  look_around(on);
   const double most = tolerance_ * tolerance_;
   if (std::none_of(around_.begin(), around_.end(), [&](const TrianglePlanes* t) {
         return t->squared_distance_up_to(most, walk_.stop()) <= most;
@@ -286,9 +314,9 @@ bool TwoSidedBound::is_near(const Affected& a, const WalkedSurface& on) {
   return true;
 }
 
-bool TwoSidedBound::new_are_near(const Collapse& collapse) {
-  for (std::size_t i = 0; i < collapse.faces.size(); ++i) {
-    next_[i].to_originals = distance_of_new(collapse.faces[i], after_[i]);
+bool TwoSidedBound::new_are_near(std::span<const Index> faces) {
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    next_[i].to_originals = distance_of_new(faces[i], after_[i]);
     if (!std::isfinite(next_[i].to_originals)) return false;
   }
   return true;

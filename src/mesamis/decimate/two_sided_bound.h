@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mesamis/decimate/collapse.h"
 #include "mesamis/decimate/cover.h"
 #include "mesamis/decimate/covering.h"
+#include "mesamis/decimate/flip.h"
 #include "mesamis/decimate/rim_walk.h"
 
 namespace mesamis::detail::decimate {
@@ -31,7 +33,12 @@ class TwoSidedBound {
               const Collapse& collapse);
   /// Takes over the last collapse that was allowed.
   void apply(const Collapse& collapse);
+  /// The same for a flip that has been made.
+  bool allows(const EditableSurface& surface, const Flip& flip);
+  void apply(const Flip& flip) { replace(flip.faces); }
 
+  /// Whether a triangle stays.
+  bool stays(Index triangle) const { return stays_[triangle] != 0; }
   /// The originals that a triangle stands for, increasing.
   std::vector<Index> originals_of(Index triangle) const;
   /// From which none of its points is farther from the originals, mm.
@@ -55,18 +62,21 @@ class TwoSidedBound {
     double distance;  ///< from the original to the surface, mm
   };
 
+  void start();
+  void gather(Index triangle, Index guess);
   void gather(const Collapse& collapse);
   void see_after(const Collapse& collapse);
-  void swap_after(const Collapse& collapse);
-  void look_around(const EditableSurface& surface, const Collapse& collapse);
+  void swap_after(std::span<const Index> faces);
+  void replace(std::span<const Index> faces);
+  void look_around(const WalkedSurface& on);
   bool ends_are_near(const std::vector<Vec3>& points, const Collapse& collapse) const;
-  Bounds bounds_before(const Collapse& collapse) const;
-  void lift(const Bounds& bounds, const Collapse& collapse);
+  Bounds bounds_after(double height, std::initializer_list<std::span<const Index>> triangles) const;
+  bool lift(const Bounds& bounds, std::span<const Index> faces);
   bool centers_are_near(const WalkedSurface& on);
-  bool old_are_near(const EditableSurface& surface, const Collapse& collapse);
+  bool old_are_near(const WalkedSurface& on, std::span<const Index> faces);
   bool is_near(const Affected& a, const WalkedSurface& on);
   double distance_of_new(Index face, const TrianglePlanes& after);
-  bool new_are_near(const Collapse& collapse);
+  bool new_are_near(std::span<const Index> faces);
 
   const Cover& cover_;  // as it was
   double tolerance_;
