@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <set>
 #include <utility>
 
+#include "mesamis/decimate/flip.h"
 #include "mesamis/surface/distance.h"
 #include "mesamis/surface/farthest.h"
 #include "mesamis/surface/self_intersections.h"
@@ -51,6 +53,26 @@ TEST(DecimatePass, StaysNearClosedAndFreeOfIntersections) {
   EXPECT_LT(result.triangles.size(), pass.surface.triangles.size() / 3);
   EXPECT_TRUE(find_self_intersections(result).empty());
   EXPECT_LE(max_distance(result, pass.surface, 1e-4), 0.02 * kDistanceSlack);
+}
+
+/// Waves of all directions make folds that run across the edges of the grid.
+TEST(DecimatePass, LeavesFewEdgesToFlip) {
+  Pass pass(0.05);
+  for (Vec3& p : pass.surface.points) {
+    p = (1 + 0.03 * std::sin(23 * p.x + 17 * p.y) * std::cos(19 * p.z - 7 * p.y)) * p;
+  }
+  const TriMesh result = pass.run(pass.none());
+  EXPECT_EQ(flaws_of(check_surface(result)), "");
+  const EditableSurface surface(result.points.size(), result.triangles);
+  std::vector<Vec3> normals;
+  for (const Triangle& t : result.triangles) normals.push_back(unit_normal(corners_of(result, t)));
+  double edges = 0, flips = 0;
+  for (Index h = 0; h < 3 * surface.count(); ++h) {
+    if (surface.opposite(h) < h || !surface.may_flip(h)) continue;
+    ++edges;
+    if (smooths(surface, result.points, normals, describe_flip(surface, result.points, h))) ++flips;
+  }
+  EXPECT_LT(flips, 0.05 * edges);
 }
 
 TEST(DecimatePass, StopsAtANumberOfTriangles) {
