@@ -79,17 +79,85 @@ TEST(LabelOutput, FollowsObliqueAndMirroredGrids) {
   EXPECT_EQ(wrong_voxels(label_map_of(mirrored, {&object, 1}), -1, 9), 0);
 }
 
-TEST(LabelOutput, HandlesCentresOnTheSurface) {
-  // A box whose faces pass through centres: each row is marked from one face to the other.
-  const TriMesh box = level_set({{0, 0, 0}, {10, 10, 10}}, {10, 10, 10}, [](const Vec3& p) {
-    const Vec3 d = p - Vec3{5, 5, 5};
-    return 3.0 - std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
-  });
-  const FoundObject object{box, {"box", 1, 0, {}}};
-  const LabelMap map = label_map_of({.size = {11, 11, 11}}, {&object, 1});
-  const auto marked = std::count(map.layers[0].begin(), map.layers[0].end(), 1);
-  EXPECT_GE(marked, 5 * 5 * 5);
-  EXPECT_LE(marked, 7 * 7 * 7);
+/// A box between two corners, in the axes of a grid, mm.
+TriMesh block(const VoxelGrid& grid, const Vec3& lo, const Vec3& hi) {
+  TriMesh mesh = level_set({lo, hi}, {3, 3, 3}, [](const Vec3&) { return 1.0; });
+  for (Vec3& p : mesh.points) p = grid.to_world(p);
+  return mesh;
+}
+
+/// As a file of single precision has it.
+TriMesh rounded(TriMesh mesh) {
+  for (Vec3& p : mesh.points) {
+    for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(p[axis]);
+  }
+  return mesh;
+}
+
+Vec3 centre(const VoxelGrid& grid, double i, double j, double k) {
+  return {i * grid.spacing.x, j * grid.spacing.y, k * grid.spacing.z};
+}
+
+/// Grids of 9 x 8 x 7 voxels: plain, anisotropic, oblique, left-handed, far from the origin.
+std::vector<VoxelGrid> grids() {
+  const double c = std::cos(0.3), s = std::sin(0.3);
+  VoxelGrid plain{.size = {9, 8, 7}}, uneven = plain, oblique = plain, left = plain, far = plain;
+  uneven.spacing = {0.3, 0.7, 2.9};
+  uneven.origin = {0.1, 0.2, 0.3};
+  oblique.spacing = {0.33, 0.47, 1.1};
+  oblique.origin = {-211.7, 95.3, 1021.9};
+  oblique.direction.rows = {{{c, -s, 0}, {s * c, c * c, -s}, {s * s, c * s, c}}};
+  left.direction.rows = {{{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  left.origin = {8.1, 0, 0};
+  far.spacing = {0.01, 0.01, 0.01};
+  far.origin = {512.3, -1999.9, 77.7};
+  return {plain, uneven, oblique, left, far};
+}
+
+TEST(LabelOutput, CentresOnTheSurfaceAreInside) {
+  for (const VoxelGrid& grid : grids()) {
+    const Vec3 end = grid.box().hi;
+    struct Case {
+      Vec3 lo, hi;
+      std::ptrdiff_t voxels;
+    };
+    const std::vector<Case> cases{
+        {{0, 0, 0}, end, 9 * 8 * 7},  // the border of the scan on all sides
+        {centre(grid, 2.5, 0, 2.5), centre(grid, 4.5, 7, 4.5), 2 * 8 * 2},  // on two sides
+        {centre(grid, 0, 2.4, 2.4), centre(grid, 3.6, 4.6, 4.6), 4 * 2 * 2},
+        {centre(grid, 1, 2, 3), centre(grid, 6, 5, 5), 6 * 4 * 3}};  // that of a crop
+    for (const Case& c : cases) {
+      const TriMesh exact = block(grid, c.lo, c.hi), file = rounded(exact);
+      for (const TriMesh* surface : {&exact, &file}) {
+        const FoundObject object{*surface, {"box", 1, 0, {}}};
+        const LabelMap map = label_map_of(grid, {&object, 1});
+        EXPECT_EQ(std::count(map.layers[0].begin(), map.layers[0].end(), 1), c.voxels);
+        EXPECT_EQ(labels_of_surfaces(grid, {&object, 1}).map.layers, map.layers);
+      }
+    }
+  }
+}
+
+TEST(LabelOutput, CentresBetweenTouchingObjectsAreTheFirstOnes) {
+  for (const VoxelGrid& grid : grids()) {
+    // Along each axis two boxes from border to border that meet on centres.
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 middle = grid.box().hi, start{};
+      middle[axis] = start[axis] = 3 * grid.spacing[axis];
+      const TriMesh a = rounded(block(grid, {0, 0, 0}, middle));
+      const TriMesh b = rounded(block(grid, start, grid.box().hi));
+      const std::vector<FoundObject> objects{{a, {"a", 1, 0, {}}}, {b, {"b", 2, 0, {}}}};
+      const auto size = static_cast<std::size_t>(grid.size[static_cast<std::size_t>(axis)]);
+      const std::size_t slice = grid.voxel_count() / size;
+      for (const LabelMap& map :
+           {label_map_of(grid, objects), labels_of_surfaces(grid, objects).map}) {
+        ASSERT_EQ(map.layers.size(), 1u);
+        const auto counts = voxel_counts(map);
+        EXPECT_EQ(counts[0] + counts[1], grid.voxel_count());
+        EXPECT_EQ(counts[0], 4 * slice);
+      }
+    }
+  }
 }
 
 TEST(LabelOutput, GivesObjectsTheirLabelsAndLayers) {

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
+#include "mesamis/report/centre_faces.h"
 #include "mesamis/report/line_crossing.h"
 
 namespace mesamis::detail::report {
@@ -15,6 +17,15 @@ namespace {
 
 /// Of a voxel: no centre of a usual surface lies on such a line.
 constexpr double kAside = 1.1e-6;
+/// Of a voxel: how far from centres a face on them lies, beside the rounding of single precision.
+constexpr double kHair = 1e-3;
+constexpr double kMostHair = 0.1;
+
+/// Which voxels an object gets.
+enum class Marks {
+  kInside,  ///< those with the centre inside, not on the surface
+  kTouched  ///< those whose centre is on the surface and that no object has
+};
 
 /// Where a surface crosses a line of voxels.
 struct Crossing {
@@ -29,8 +40,21 @@ class Lines {
     voxels_.resize(surface.points.size());
     parallel_for(voxels_.size(), [&](std::size_t p) {
       const Vec3 q = grid.to_grid(surface.points[p]), &s = grid.spacing;
-      voxels_[p] = {q.x / s.x, q.y / s.y - kAside, q.z / s.z - kAside};
+      voxels_[p] = {q.x / s.x, q.y / s.y, q.z / s.z};
     });
+  }
+
+  /// Moves faces through centres to outside or inside of these.
+  /// @return whether there are any.
+  bool move_centre_faces(Marks marks) {
+    double far = 0;
+    for (const Vec3& p : surface_.points) {
+      far = std::max({far, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
+    const double rounding = far * std::numeric_limits<float>::epsilon() / grid_.shortest_side();
+    const double hair = std::min(kHair + rounding, kMostHair);
+    const double by = marks == Marks::kTouched ? 2 * hair : -2 * hair;
+    return report::move_centre_faces(voxels_, surface_.triangles, hair, by);
   }
 
   /// Increasing by row and place.
@@ -50,7 +74,7 @@ class Lines {
 
   void add(const Triangle& t, std::vector<Crossing>& found) const {
     const std::array<NumberedCorner, 3> c{
-        {{voxels_[t[0]], t[0]}, {voxels_[t[1]], t[1]}, {voxels_[t[2]], t[2]}}};
+        {{beside(t[0]), t[0]}, {beside(t[1]), t[1]}, {beside(t[2]), t[2]}}};
     const auto [y0, y1] = std::minmax({c[0].at.y, c[1].at.y, c[2].at.y});
     const auto [z0, z1] = std::minmax({c[0].at.z, c[1].at.z, c[2].at.z});
     for (Index k = first_from(z0); k < grid_.size[2] && k <= z1; ++k) {
@@ -59,6 +83,11 @@ class Lines {
         if (crossing) found.push_back({row_of(j, k), crossing->x, crossing->inward});
       }
     }
+  }
+
+  /// A point, seen from the lines.
+  Vec3 beside(Index p) const {
+    return voxels_[static_cast<std::size_t>(p)] - Vec3{0, kAside, kAside};
   }
 
   std::size_t row_of(Index j, Index k) const {
@@ -71,25 +100,31 @@ class Lines {
   std::vector<Vec3> voxels_;
 };
 
-/// Sets the voxels of a row between two places.
-void fill(std::vector<std::uint16_t>& layer, const VoxelGrid& grid, const Crossing& from, double to,
-          std::uint16_t label) {
+/// The voxels of a row between two places, as places in a layer.
+std::array<std::size_t, 2> between(const VoxelGrid& grid, const Crossing& from, double to) {
   const auto nx = static_cast<double>(grid.size[0]);
-  const auto begin = static_cast<std::size_t>(std::clamp(std::ceil(from.x), 0.0, nx));
-  const auto end = static_cast<std::size_t>(std::clamp(std::ceil(to), 0.0, nx));
   const std::size_t start = from.row * static_cast<std::size_t>(grid.size[0]);
-  for (std::size_t i = begin; i < end; ++i) layer[start + i] = label;
+  const auto place = [&](double x) {
+    return start + static_cast<std::size_t>(std::clamp(std::ceil(x), 0.0, nx));
+  };
+  return {place(from.x), place(to)};
 }
 
-void mark(const VoxelGrid& grid, const FoundObject& object, std::vector<std::uint16_t>& layer) {
-  const std::vector<Crossing> crossings = Lines(grid, object.surface).crossings();
+void mark(const VoxelGrid& grid, const FoundObject& object, std::vector<std::uint16_t>& layer,
+          Marks marks) {
+  Lines lines(grid, object.surface);
+  if (!lines.move_centre_faces(marks) && marks == Marks::kTouched) return;
+  const auto label = static_cast<std::uint16_t>(object.segment.label);
+  const std::vector<Crossing> crossings = lines.crossings();
   int depth = 0;
   for (std::size_t n = 0; n + 1 < crossings.size(); ++n) {
     if (n > 0 && crossings[n].row != crossings[n - 1].row) depth = 0;
     depth += crossings[n].inward;
     if (depth == 0 || crossings[n + 1].row != crossings[n].row) continue;
-    fill(layer, grid, crossings[n], crossings[n + 1].x,
-         static_cast<std::uint16_t>(object.segment.label));
+    const auto [begin, end] = between(grid, crossings[n], crossings[n + 1].x);
+    for (std::size_t v = begin; v < end; ++v) {
+      if (marks == Marks::kInside || layer[v] == 0) layer[v] = label;
+    }
   }
 }
 
@@ -126,8 +161,10 @@ LabelMap label_map_of(const VoxelGrid& grid, std::span<const FoundObject> object
     map.segments.push_back(object.segment);
   }
   map.layers.assign(layers, std::vector<std::uint16_t>(grid.voxel_count(), 0));
-  for (const FoundObject& object : objects) {
-    mark(grid, object, map.layers[static_cast<std::size_t>(object.segment.layer)]);
+  for (const Marks marks : {Marks::kInside, Marks::kTouched}) {
+    for (const FoundObject& object : objects) {
+      mark(grid, object, map.layers[static_cast<std::size_t>(object.segment.layer)], marks);
+    }
   }
   return map;
 }
@@ -165,9 +202,13 @@ SurfaceLabels labels_of_surfaces(const VoxelGrid& grid, std::span<const FoundObj
   SurfaceLabels out;
   static_cast<VoxelGrid&>(out.map) = grid;
   for (const FoundObject& object : objects) {
-    FoundObject alone{object.surface, object.segment};
-    alone.segment.layer = 0;
-    add_object(out.map, object.segment, std::move(label_map_of(grid, {&alone, 1}).layers[0]));
+    std::vector<std::uint16_t> alone(grid.voxel_count(), 0);
+    mark(grid, object, alone, Marks::kInside);
+    add_object(out.map, object.segment, std::move(alone));
+  }
+  for (std::size_t n = 0; n < objects.size(); ++n) {
+    const auto layer = static_cast<std::size_t>(out.map.segments[n].layer);
+    mark(grid, objects[n], out.map.layers[layer], Marks::kTouched);
   }
   const std::vector<std::size_t> counts = voxel_counts(out.map);
   if (std::all_of(counts.begin(), counts.end(), [](std::size_t n) { return n == 0; })) {

@@ -29,8 +29,10 @@ std::vector<std::string> missing_objects(const LabelResult& result,
 /// Marks the voxels whose centres lie inside of closed surfaces.
 ///
 /// Along each line of voxels the surface is crossed inward and outward; a centre is inside where
-/// the crossings before it do not cancel out. Lines are moved by a millionth of a voxel, so that
-/// centres on the surface fall to one side. Where objects overlap, the later one has the voxel.
+/// the crossings before it do not cancel out. Where objects overlap, the later one has the voxel.
+/// A centre on a face along a plane of centres, as the border of a scan or of a crop cuts them, is
+/// inside of the first such object, unless it is inside of another one; on it means within a
+/// thousandth of a voxel and the rounding of single precision.
 /// @param grid     of the scan.
 /// @param objects  segments with different labels, or layers.
 /// @return as many layers as the segments need.
@@ -46,7 +48,7 @@ struct SurfaceLabels {
 };
 
 /// Marks the voxels inside of surfaces as label_map_of() does, but keeps each object whole: it lies
-/// in the first layer where it overlaps no other.
+/// in the first layer where it overlaps no other. Objects that touch do not overlap.
 /// @param grid     of the scan; directions of any kind.
 /// @param objects  segments with different labels; their layers are not used.
 /// @return the map, with a segment per object.

@@ -25,6 +25,7 @@ set(ROOM_SOURCES
   body_output.cpp
   body_request.cpp
   cell_labels.cpp
+  centre_faces.cpp
   comparison_json.cpp
   filled_objects.cpp
   json_file.cpp
