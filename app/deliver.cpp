@@ -35,9 +35,7 @@ int deliver(const OutcomeDetails& outcome, const RunFiles& outputs, OutputSet& s
   show_summary(figures);
   const Verdict& verdict = outcome.verdict;
   if (verdict.kind != VerdictKind::kKept) log_error(verdict.message);
-  if (outcome.elements.unmet.empty()) return exit_status(verdict.kind);
-  log_error("--body: " + outcome.elements.unmet);
-  return verdict.kind == VerdictKind::kKept ? kExitNotConverged : exit_status(verdict.kind);
+  return exit_status(verdict.kind);
 }
 
 }  // namespace mesamis

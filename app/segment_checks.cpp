@@ -204,6 +204,9 @@ void require_settings_of_objects(const SegmentOptions& options, const Settings& 
   if (labels || scan.places.seeds.size() > 1) {
     parsed("--surface", [&] { require_solids(settings); });
   }
+  if (labels && scan.input.empty() && settings.accuracy) {
+    throw CLI::ValidationError("--accuracy", "expected a scan beside the labels, found none");
+  }
   for (const auto& [name, text, option] : options.settings.overrides) {
     if (name != "level" || !labels || text == "local" || text == "auto") continue;
     if (scan.input.empty()) {

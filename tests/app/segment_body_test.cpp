@@ -175,9 +175,14 @@ TEST_F(SegmentBody, RefusesInOneLineBeforeItReads) {
 /// What was asked for and is not there ends a run as one that missed a promise; the rest is
 /// written.
 TEST_F(SegmentBody, SetsWithoutAFaceAreTold) {
-  const ProgramRun run = segment("a.inp", {"--set", "HOLE=inner", "--set", "UP=top:z,1"});
+  const ProgramRun run =
+      segment("a.inp", {"--set", "HOLE=inner", "--set", "UP=top:z,1", "--html", folder / "a.html"});
   EXPECT_EQ(run.status, 4);
   EXPECT_THAT(run.err, testing::HasSubstr("--body: set 'HOLE' has no face"));
+  const auto verdict = report()["verdict"];
+  EXPECT_EQ(verdict["kept"], false);
+  EXPECT_THAT(run.err, testing::HasSubstr("mesamis: " + verdict["message"].get<std::string>()));
+  EXPECT_THAT(read_bytes(folder / "a.html"), testing::Not(testing::HasSubstr("checks passed")));
   EXPECT_THAT(read_bytes(folder / "a.inp"), testing::HasSubstr("NSET=UP"));
   EXPECT_FAILS(segment("b.inp", {"--set", "B=between:1,2"}), 3,
                "set B: expected two of the objects 1 'object', found 2");

@@ -219,6 +219,22 @@ TEST_F(SegmentLabels, SaysThatALevelPlacesNoBoundary) {
   EXPECT_THAT(run_with("local").err, testing::Not(HasSubstr("--level")));
 }
 
+TEST_F(SegmentLabels, AnAccuracyThatAnObjectMissesIsTold) {
+  const auto run_for = [&](const std::string& accuracy) {
+    return run_program(folder,
+                       {"segment", folder / "balls.nrrd", "--labels", folder / "labels.nrrd", "-o",
+                        folder / "a.vtp", "--accuracy", accuracy, "--report", folder / "a.json"});
+  };
+  EXPECT_EQ(run_for("2").status, 0);
+  const ProgramRun missed = run_for("0.001");
+  EXPECT_EQ(missed.status, 4);
+  EXPECT_THAT(missed.err, HasSubstr("accuracy: expected 0.001 mm in the mean at most, found 0."));
+  const auto verdict = nlohmann::json::parse(read_bytes(folder / "a.json"))["verdict"];
+  EXPECT_EQ(verdict["kept"], false);
+  EXPECT_THAT(missed.err, HasSubstr(verdict["message"].get<std::string>()));
+  EXPECT_TRUE(std::filesystem::exists(folder / "a.vtp"));
+}
+
 TEST_F(SegmentLabels, RefusesInOneLine) {
   EXPECT_FAILS(segment({"--mesh", folder / "a.vtu"}), 2, "--mesh: expected a scan");
   const auto expect_refused = [&](std::vector<std::string> more, int status, const char* what) {
@@ -240,6 +256,7 @@ TEST_F(SegmentLabels, RefusesInOneLine) {
   expect_refused({scan, "-o", out, "--settings", folder / "band.json"}, 2,
                  "--surface: expected solid for several objects, found band");
   expect_refused({"-o", out, "--level", "150"}, 2, "--level: expected a scan");
+  expect_refused({"-o", out, "--accuracy", "0.5"}, 2, "--accuracy: expected a scan");
   expect_refused({scan, "-o", out, "--error"}, 2, "--error");
   expect_refused({scan, "--labelmap", folder / "x.gz"}, 2, "--labelmap");
   expect_refused({scan, "-o", out, "--margin", "nan"}, 2, "margin");

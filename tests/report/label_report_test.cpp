@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/report/label_report.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -129,6 +129,37 @@ TEST(LabelReport, JudgesEachSurface) {
   EXPECT_NE(open.message.find("'hip'"), std::string::npos);
   result.objects.pop_back();
   EXPECT_EQ(judge(result, checks_of(result)).kind, VerdictKind::kKept);
+}
+
+TEST(LabelReport, JudgesTheAccuracyOfEachObject) {
+  LabelResult result = two_objects();
+  result.objects[1].surface = result.objects[0].surface;
+  const auto verdict_for = [&](double accuracy, double first, double second) {
+    result.parameters.accuracy = accuracy;
+    const double errors[] = {first, second};
+    for (std::size_t n = 0; n < 2; ++n) {
+      LabelledObject& object = result.objects[n];
+      object.expected_error.assign(object.surface.points.size(), errors[n]);
+    }
+    return judge(result, checks_of(result));
+  };
+  EXPECT_EQ(verdict_for(0, 0.3, 0.3).kind, VerdictKind::kKept) << "none was asked for";
+  EXPECT_EQ(verdict_for(0.3, 0.2, 0.25).kind, VerdictKind::kKept);
+  const Verdict one = verdict_for(0.3, 0.2, 0.4);
+  EXPECT_EQ(one.kind, VerdictKind::kNotConverged);
+  EXPECT_EQ(one.message, "'" + result.objects[1].segment.name +
+                             "': accuracy: expected 0.3 mm in the mean at most, found 0.4 mm to "
+                             "expect");
+  EXPECT_THAT(verdict_for(0.1, 0.2, 0.4).message, testing::EndsWith("; 1 more object too"));
+  result.objects[1].expected_error.clear();
+  EXPECT_NE(judge(result, checks_of(result)).message, "");
+}
+
+TEST(LabelReport, JudgesTheFlow) {
+  LabelResult result = two_objects();
+  result.objects.pop_back();
+  result.flow_converged = false;
+  EXPECT_EQ(judge(result, checks_of(result)).kind, VerdictKind::kNotConverged);
 }
 
 }  // namespace

@@ -80,6 +80,25 @@ TEST(Verdict, AnAccuracyThatTheScanDoesNotPermitIsUnmet) {
               HasSubstr("expected 0.2 mm in the mean at most, found 0.3"));
 }
 
+TEST(Verdict, AnAccuracyOfWhichNothingIsKnownIsUnmet) {
+  const TriMesh surface = cube();
+  EXPECT_THAT(accuracy_unmet(0.2, surface, {}), HasSubstr("not known"));
+  EXPECT_EQ(accuracy_unmet(0, surface, {}), "");
+  EXPECT_EQ(accuracy_unmet(0.2, {}, {}), "") << "nothing that could be inaccurate";
+}
+
+TEST(Verdict, TakesWhatElseWasMissed) {
+  Verdict verdict;
+  add_unmet(verdict, "");
+  EXPECT_EQ(verdict.kind, VerdictKind::kKept);
+  add_unmet(verdict, "a");
+  EXPECT_EQ(verdict.kind, VerdictKind::kNotConverged);
+  verdict.kind = VerdictKind::kNotClosed;
+  add_unmet(verdict, "b");
+  EXPECT_EQ(verdict.kind, VerdictKind::kNotClosed) << "the worst stays";
+  EXPECT_EQ(verdict.message, "a; b");
+}
+
 TEST(Verdict, SaysWhyARunHasNotConverged) {
   Case unsettled;
   unsettled.result.converged = false;

@@ -88,6 +88,8 @@ TEST(Segment, LabelsAloneNeedNoScan) {
   request.mesh = false;
   request.elements.body = true;
   EXPECT_REFUSED(segment(request), "body: expected a scan beside the labels, found none");
+  request.settings.accuracy = 0.5;
+  EXPECT_REFUSED(segment(request), "accuracy: expected a scan beside the labels, found none");
   EXPECT_REFUSED(segment({}), "request: expected a scan or labels, found neither");
 }
 

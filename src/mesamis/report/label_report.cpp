@@ -49,6 +49,25 @@ ordered_json boundary_json(const LabelBoundary& boundary) {
   return j;
 }
 
+/// Of the first object that is less accurate than was asked for, and how many more are; or empty.
+std::string accuracy_unmet(const LabelResult& result) {
+  std::string first;
+  int more = 0;
+  for (const LabelledObject& object : result.objects) {
+    const std::string unmet =
+        report::accuracy_unmet(result.parameters.accuracy, object.surface, object.expected_error);
+    if (unmet.empty()) continue;
+    if (first.empty()) {
+      first = "'" + object.segment.name + "': " + unmet;
+    } else {
+      ++more;
+    }
+  }
+  if (more == 0) return first;
+  return first + "; " + std::to_string(more) + (more == 1 ? " more object" : " more objects") +
+         " too";
+}
+
 }  // namespace
 
 ordered_json label_run_json(const Settings& asked, const LabelResult& result,
@@ -91,6 +110,11 @@ Verdict judge(const LabelResult& result, std::span<const SurfaceCheck> checks) {
                 "found " +
                 flaws};
   }
+  if (!result.flow_converged) {
+    return {VerdictKind::kNotConverged, "not converged: a linear solve of the labels' flow"};
+  }
+  const std::string inaccurate = accuracy_unmet(result);
+  if (!inaccurate.empty()) return {VerdictKind::kNotConverged, inaccurate};
   return {};
 }
 

@@ -19,7 +19,8 @@ namespace mesamis::detail::report {
 nlohmann::ordered_json label_run_json(const Settings& asked, const LabelResult& result,
                                       std::span<const SurfaceCheck> checks);
 
-/// Judges the surfaces of objects: each must be closed, 2-manifold and face outward.
+/// Judges the surfaces of objects: each must be closed, 2-manifold, face outward, and be as accurate
+/// as was asked for, and the flow of the labels must have converged.
 /// @param checks  as for label_run_json().
 Verdict judge(const LabelResult& result, std::span<const SurfaceCheck> checks);
 

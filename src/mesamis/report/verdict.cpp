@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesamis/report/verdict.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -43,13 +44,6 @@ std::string why_not_converged(const Result& result) {
          std::to_string(p.tol_mesh) + " and " + std::to_string(p.tol_energy);
 }
 
-std::string accuracy_unmet(double accuracy, double expected) {
-  std::ostringstream line;
-  line << "accuracy: expected " << accuracy << " mm in the mean at most, found " << expected
-       << " mm to expect";
-  return line.str();
-}
-
 }  // namespace
 
 Verdict judge(const Result& result, const SurfaceCheck& check) {
@@ -65,13 +59,28 @@ Verdict judge(const Result& result, const SurfaceCheck& check) {
     return {VerdictKind::kNotConverged, tolerance_unmet(*p.tolerance, result.printable)};
   }
   if (!result.converged) return {VerdictKind::kNotConverged, why_not_converged(result)};
-  if (solid && p.accuracy > 0) {
-    const double expected = summarize_error(result.surface, result.expected_error).mean;
-    if (expected > p.accuracy) {
-      return {VerdictKind::kNotConverged, accuracy_unmet(p.accuracy, expected)};
-    }
-  }
+  if (!solid) return {};
+  const std::string inaccurate = accuracy_unmet(p.accuracy, result.surface, result.expected_error);
+  if (!inaccurate.empty()) return {VerdictKind::kNotConverged, inaccurate};
   return {};
+}
+
+void add_unmet(Verdict& verdict, const std::string& missed) {
+  if (missed.empty()) return;
+  verdict.kind = std::max(verdict.kind, VerdictKind::kNotConverged);
+  verdict.message += (verdict.message.empty() ? "" : "; ") + missed;
+}
+
+std::string accuracy_unmet(double accuracy, const TriMesh& surface,
+                           const std::vector<double>& expected_error) {
+  if (accuracy == 0 || surface.triangles.empty()) return {};
+  std::ostringstream line;
+  line << "accuracy: expected " << accuracy << " mm in the mean at most, found ";
+  if (expected_error.empty()) return line.str() + "an error that is not known";
+  const double expected = summarize_error(surface, expected_error).mean;
+  if (expected <= accuracy) return {};
+  line << expected << " mm to expect";
+  return line.str();
 }
 
 std::string tolerance_unmet(double tolerance, const PrintableReport& printable) {

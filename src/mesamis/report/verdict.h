@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "mesamis/method/mes_amis.h"
 #include "mesamis/surface/tri_mesh.h"
@@ -25,6 +26,16 @@ struct Verdict {
 /// expected error is no more than was asked for.
 /// @param check  of the result's surface.  O(n log n) for n triangles.
 Verdict judge(const Result& result, const SurfaceCheck& check);
+
+/// Adds what else was missed to a verdict.
+/// @param missed  on one line; empty: nothing.
+void add_unmet(Verdict& verdict, const std::string& missed);
+
+/// Why a surface is less accurate than was asked for, on one line; empty: it is not.
+/// @param accuracy        mm, in the mean; 0: none was asked for.
+/// @param expected_error  at its points, mm; empty: not known.
+std::string accuracy_unmet(double accuracy, const TriMesh& surface,
+                           const std::vector<double>& expected_error);
 
 /// Why a surface is farther from the extracted one than it should be, on one line.
 /// @param tolerance  mm.

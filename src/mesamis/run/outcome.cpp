@@ -35,10 +35,7 @@ const FiniteElements* Outcome::elements() const {
 
 Settings Outcome::settings_used() const { return settings_of(details_->parameters()); }
 
-std::string Outcome::flaw() const {
-  const std::string& of_surfaces = details_->verdict.message;
-  return of_surfaces.empty() ? details_->elements.unmet : of_surfaces;
-}
+std::string Outcome::flaw() const { return details_->verdict.message; }
 
 std::vector<std::string> Outcome::warnings() const {
   std::vector<std::string> lines;

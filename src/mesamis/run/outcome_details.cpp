@@ -120,6 +120,8 @@ void judge_surfaces(OutcomeDetails& outcome) {
   }
   outcome.verdict = outcome.one ? judge(*outcome.one, outcome.checks.front())
                                 : judge(*outcome.several, outcome.checks);
+  const std::string& of_body = outcome.elements.unmet;
+  if (!of_body.empty()) add_unmet(outcome.verdict, "--body: " + of_body);
 }
 
 Segment one_object() { return {"object", 1, 0, default_colour(1)}; }

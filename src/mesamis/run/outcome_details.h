@@ -37,7 +37,7 @@ struct OutcomeDetails {
   std::vector<double> grey;
   ElementResults elements;
   std::vector<std::string> warnings;  ///< beside those of `object`, one line each
-  Verdict verdict;                    ///< of the surfaces; a body has its own, ElementResults
+  Verdict verdict;                    ///< of the surfaces and the body
 
   /// The objects that were found, which refer to this.
   std::vector<FoundObject> objects() const;
@@ -68,7 +68,7 @@ std::int64_t shared_triangles(std::span<const FoundObject> objects);
 /// @return one line, or none.
 std::vector<std::string> triangle_warnings(const OutcomeDetails& outcome);
 
-/// Checks the surfaces of the objects that were found, and judges them.
+/// Checks the surfaces of the objects that were found, and judges them and the body, if any.
 void judge_surfaces(OutcomeDetails& outcome);
 
 /// The segment of a run for one object.

@@ -17,6 +17,9 @@ void require_scan_where_needed(const Request& request) {
   if (request.has_scan()) return;
   if (!request.labels) throw InputError("request: expected a scan or labels, found neither");
   if (request.mesh) throw InputError("mesh: expected a scan beside the labels, found none");
+  if (request.settings.accuracy) {
+    throw InputError("accuracy: expected a scan beside the labels, found none");
+  }
   if (request.elements.body) {
     throw InputError("body: expected a scan beside the labels, found none");
   }
