@@ -253,7 +253,10 @@ TEST(SettingsFor, LeaveTheLevelOpenWhereNobodyMeasuredIt) {
   EXPECT_EQ(level->uncertainty, 5);
   Settings paper;
   paper.threshold_rule = ThresholdRule::kPaper;
-  EXPECT_FALSE(settings_for(measured, paper).level) << "it lies between T and the object";
+  EXPECT_TRUE(settings_for(measured, paper).level) << "a T alone changes nothing";
+  EXPECT_TRUE(object_request(paper).measure_level);
+  paper.surface = SurfaceKind::kBand;
+  EXPECT_FALSE(settings_for(measured, paper).level);
   EXPECT_FALSE(object_request(paper).measure_level);
 }
 

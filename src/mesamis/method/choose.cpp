@@ -87,10 +87,14 @@ double choose_threshold(const Settings& settings, const GreyMap& map,
   return measured && *measured < level ? std::max(map.low, *measured) : map.low;
 }
 
-/// The level of the object's edge. Where T lies above it, T is the background that is left: midway
-/// between T and the object.
-double level_above(const GreyMap& map, const HalfMaximumLevel& object) {
-  if (!map.has_threshold() || object.level > map.threshold) return object.level;
+/// The level of the object's edge, here or in the whole scan. Where T lies above one that was
+/// measured, T is the background that is left: midway between T and the object.
+double level_above(const GreyMap& map, const std::optional<KnownLevel>& known,
+                   const HalfMaximumLevel& object) {
+  const double level = known ? known->value : object.level;
+  const bool measured =
+      !known || known->from == LevelSource::kScan || known->from == LevelSource::kCrop;
+  if (!measured || !map.has_threshold() || level > map.threshold) return level;
   return (map.threshold + object.contrast.object) / 2;
 }
 
@@ -237,7 +241,7 @@ ChosenImage choose_but_cells(const VolumeView& image, const VoxelGrid& whole,
   }
   const auto threshold = find_tissue_threshold(image, seen.contrast, seen.level, restored.noise);
   p.grey.threshold = choose_threshold(asked, p.grey, threshold, level);
-  p.level = settings.level ? level : level_above(p.grey, object);
+  p.level = level_above(p.grey, settings.level, object);
   if (!asked.gamma) {
     p.functional.gamma = choose_gamma(p, object.contrast.difference(), restored.noise_left);
   }

@@ -4,21 +4,12 @@
 #include <utility>
 
 namespace mesamis::detail::method {
-namespace {
-
-/// With a T of the user's own the run places the level between it and the object.
-bool has_own_threshold(const Settings& settings) {
-  return settings.threshold_rule == ThresholdRule::kPaper ||
-         settings.threshold_rule == ThresholdRule::kValue;
-}
-
-}  // namespace
 
 ObjectRequest object_request(const Settings& settings) {
   const bool solid = settings.surface == SurfaceKind::kSolid;
   ObjectRequest request;
   request.crop = settings.crop;
-  request.measure_level = solid && !has_own_threshold(settings);
+  request.measure_level = solid;
   request.local_level = settings.has_local_level();
   if (solid) request.level = settings.level;
   return request;

@@ -98,7 +98,11 @@ class ObjectChooser {
     find_level();
     measure_before_crop();
     crop_all();
-    if (needs_level_of_crop()) set_level(find_tissue_level(chosen_.volume, bright_tissue()), true);
+    if (needs_level_of_crop()) {
+      set_level(find_tissue_level(chosen_.volume, bright_tissue()), true);
+    } else if (request_.level && !in_hounsfield_ && !request_.tissue) {
+      find_background();
+    }
     if (chosen_.kind != TissueKind::kBright) remove_marked();
     if (request_.mask) keep_mask();
     if (!request_.seeds.empty()) keep_seeds();
@@ -178,6 +182,7 @@ class ObjectChooser {
   void find_level() {
     if (request_.level) {
       chosen_.level = {units_.turned(*request_.level), LevelSource::kUser};
+      if (in_hounsfield_ || request_.tissue) find_background();
     } else if (chosen_.kind == TissueKind::kRange) {
       chosen_.level = {0, LevelSource::kTissue};
     } else if (request_.tissue) {
@@ -191,8 +196,18 @@ class ObjectChooser {
 
   bool wants_level() const { return request_.measure_level || !request_.seeds.empty(); }
 
-  bool needs_level_of_crop() const {
-    return !chosen_.level && wants_level() && (request_.mask || !request_.seeds.empty());
+  /// Whether anything but what was chosen falls away.
+  bool leaves_some() const { return request_.mask || !request_.seeds.empty(); }
+
+  bool needs_level_of_crop() const { return !chosen_.level && wants_level() && leaves_some(); }
+
+  /// That beside a level which is given, as where this one is measured.
+  void find_background() {
+    const Tissue tissue = request_.tissue ? units_.turned(*request_.tissue) : bright_tissue();
+    if (!leaves_some() || tissue.kind == TissueKind::kRange || tissue.level_is_given()) return;
+    const HalfMaximumLevel seen = see_object(chosen_.volume, {.start = tissue.start}).object;
+    const bool stands_out = seen.contrast.difference() != 0 && !seen.in_noise;
+    if (stands_out) background_ = seen.contrast.background;
   }
 
   void set_level(const TissueLevel& found, bool in_crop) {

@@ -8,6 +8,7 @@
 #include "mesamis/method/expected_error.h"
 #include "mesamis/report/report.h"
 #include "mesamis/report/run_summary.h"
+#include "mesamis/report/settings_json.h"
 #include "mesamis/surface/self_intersections.h"
 
 namespace mesamis::detail::report {
@@ -84,6 +85,7 @@ ordered_json label_run_json(const Settings& asked, const LabelResult& result,
   ordered_json report;
   if (result.has_image) {
     report = settings_used_json(asked, p, result.image);
+    report["settings"] = to_json(settings_used_by_labels(asked, p));
     report["chosen"].erase("level");  // each boundary has its own
   }
   report["object"] = {{"margin_mm", result.has_image ? ordered_json(result.margin) : nullptr},
@@ -98,6 +100,14 @@ ordered_json label_run_json(const Settings& asked, const LabelResult& result,
       {"surface", result.seconds.surface}, {"printable", result.seconds.printable},
       {"mesh", result.seconds.mesh},       {"method", result.seconds.total}};
   return report;
+}
+
+Settings settings_used_by_labels(const Settings& asked, const Parameters& used) {
+  Settings settings = settings_of(used);
+  settings.crop = asked.crop;
+  settings.level = asked.level;
+  settings.local_level = asked.local_level;
+  return settings;
 }
 
 Verdict judge(const LabelResult& result, std::span<const SurfaceCheck> checks) {

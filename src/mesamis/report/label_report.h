@@ -19,6 +19,10 @@ namespace mesamis::detail::report {
 nlohmann::ordered_json label_run_json(const Settings& asked, const LabelResult& result,
                                       std::span<const SurfaceCheck> checks);
 
+/// The settings that repeat a run on labels, or on several seeds: crop and level as they were asked
+/// for, as the run looks around the labels alone, and each boundary has a level of its own.
+Settings settings_used_by_labels(const Settings& asked, const Parameters& used);
+
 /// Judges the surfaces of objects: each must be closed, 2-manifold, face outward, and be as accurate
 /// as was asked for, and the flow of the labels must have converged.
 /// @param checks  as for label_run_json().

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "mesamis/report/label_report.h"
 #include "mesamis/run/outcome_details.h"
 
 namespace mesamis {
@@ -33,7 +34,11 @@ const FiniteElements* Outcome::elements() const {
   return body ? &body->elements : nullptr;
 }
 
-Settings Outcome::settings_used() const { return settings_of(details_->parameters()); }
+Settings Outcome::settings_used() const {
+  const OutcomeDetails& d = *details_;
+  return d.one ? settings_of(d.one->parameters)
+               : settings_used_by_labels(d.asked, d.several->parameters);
+}
 
 std::string Outcome::flaw() const { return details_->verdict.message; }
 
