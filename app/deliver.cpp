@@ -24,9 +24,11 @@ RunFiles outputs_of(const SegmentOptions& options, const CommonOptions& common) 
   return out;
 }
 
-int deliver(const OutcomeDetails& outcome, const RunFiles& outputs, OutputSet& set,
+int deliver(const OutcomeDetails& outcome, RunFiles outputs, OutputSet& set,
             ProgressDisplay& display) {
   display.begin("writing");
+  const std::vector<std::string>& logged = warnings_logged();
+  outputs.facts.warnings.insert(outputs.facts.warnings.end(), logged.begin(), logged.end());
   write(outcome, outputs, set);
   RunFigures figures = figures_of(outcome);
   figures.files = files_of(set);

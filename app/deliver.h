@@ -17,7 +17,7 @@ RunFiles outputs_of(const SegmentOptions& options, const CommonOptions& common);
 /// @param display  learns that files are written.
 /// @return the exit status.
 /// @throws InputError  as write() and OutputSet::commit().
-int deliver(const OutcomeDetails& outcome, const RunFiles& outputs, OutputSet& set,
+int deliver(const OutcomeDetails& outcome, RunFiles outputs, OutputSet& set,
             ProgressDisplay& display);
 
 }  // namespace mesamis

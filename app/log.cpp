@@ -20,6 +20,7 @@ namespace {
 
 bool bar_allowed = false, is_json = false, is_for_slicer = false, is_quiet = false,
      is_helper = false;
+std::vector<std::string> warnings;
 
 constexpr const char* kJsonTime = R"({"time":"%Y-%m-%dT%H:%M:%S.%e%z",)";
 
@@ -90,6 +91,7 @@ void log_info(const std::string& message) {
   spdlog::default_logger_raw()->info(spdlog::string_view_t(line_of(message)));
 }
 void log_warning(const std::string& message) {
+  warnings.push_back(message);
   spdlog::default_logger_raw()->warn(spdlog::string_view_t(line_of(message)));
 }
 void log_error(const std::string& message) {
@@ -97,6 +99,9 @@ void log_error(const std::string& message) {
   if (is_helper) std::this_thread::sleep_for(std::chrono::seconds(2));
   spdlog::default_logger_raw()->error(spdlog::string_view_t(line_of(message)));
 }
+
+const std::vector<std::string>& warnings_logged() { return warnings; }
+void forget_warnings() { warnings.clear(); }
 
 bool log_is_json() { return is_json; }
 bool log_is_for_slicer() { return is_for_slicer; }

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "commands.h"
 
@@ -16,6 +17,10 @@ void set_up_log(const CommonOptions& options);
 void log_info(const std::string& message);
 void log_warning(const std::string& message);
 void log_error(const std::string& message);
+
+/// The warnings that were logged, with --quiet too, since forget_warnings(); as they were given.
+const std::vector<std::string>& warnings_logged();
+void forget_warnings();
 
 /// What is written of a message: one line, within that bound with what stands before it.
 std::string line_of(const std::string& message);

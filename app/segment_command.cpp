@@ -184,6 +184,7 @@ int run_in_parts(const SegmentOptions& options, const Settings& settings,
 }  // namespace
 
 int run_segment(SegmentOptions options, const CommonOptions& common) {
+  forget_warnings();
   ScanArguments& scan = options.scan;
   scan.report = options.out.wants_report();
   scan.read.limits = scan.places.limits = scan.labels.limits = common.limits;

@@ -198,6 +198,16 @@ TEST_F(SegmentBody, NeedsATolerance) {
   EXPECT_EQ(segment("a.inp", {"--skin-tolerance", "0.2"}, "3", "0").status, 0);
 }
 
+/// The report has the warnings of every step.
+TEST_F(SegmentBody, WhatAFileCannotHoldIsToldInTheReport) {
+  const ProgramRun run = segment("a.msh", {"--set", "UP=top:z,1", "--material", "E=1000*rho_qct^1",
+                                           "--calibration", "1,0.0000001"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto warnings = report()["warnings"];
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_THAT(warnings[0].get<std::string>(), HasSubstr("version 2.2 with --set holds no"));
+}
+
 TEST_F(SegmentBody, RefusesNamesOfSetsThatSolversCannotTellApart) {
   write_bytes(folder / "block.nrrd", "no scan");
   EXPECT_FAILS(segment("a.inp", {"--set", "up=top:z,1", "--set", "UP=bottom:z,1"}), 2,

@@ -210,13 +210,18 @@ TEST_F(SegmentLabels, TheMeshHasALabelPerCell) {
 
 TEST_F(SegmentLabels, SaysThatALevelPlacesNoBoundary) {
   const auto run_with = [&](const std::string& level) {
-    return run_program(folder, {"segment", folder / "balls.nrrd", "--labels",
-                                folder / "labels.nrrd", "-o", folder / "a.vtp", "--level", level});
+    return run_program(folder,
+                       {"segment", folder / "balls.nrrd", "--labels", folder / "labels.nrrd", "-o",
+                        folder / "a.vtp", "--level", level, "--report", folder / "a.json"});
   };
   const ProgramRun run = run_with("150");
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("--level: each boundary of labels has its own level"));
+  const auto warnings = nlohmann::json::parse(read_bytes(folder / "a.json"))["warnings"];
+  ASSERT_EQ(warnings.size(), 1U) << "all that were logged, each once";
+  EXPECT_THAT(run.err, HasSubstr("warning: " + warnings[0].get<std::string>()));
   EXPECT_THAT(run_with("local").err, testing::Not(HasSubstr("--level")));
+  EXPECT_TRUE(nlohmann::json::parse(read_bytes(folder / "a.json"))["warnings"].empty());
 }
 
 TEST_F(SegmentLabels, AnAccuracyThatAnObjectMissesIsTold) {

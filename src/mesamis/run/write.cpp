@@ -77,10 +77,15 @@ ordered_json found_json(const OutcomeDetails& o) {
   return found;
 }
 
+/// All warnings, each once.
 ordered_json warnings_json(const OutcomeDetails& o, const ReportFacts& facts) {
   ordered_json warnings = ordered_json::array();
   const auto add = [&](const std::vector<std::string>& lines) {
-    for (const std::string& line : lines) warnings.push_back(line);
+    for (const std::string& line : lines) {
+      if (std::find(warnings.begin(), warnings.end(), line) == warnings.end()) {
+        warnings.push_back(line);
+      }
+    }
   };
   if (facts.input) add(facts.input->warnings);
   if (o.object) add(o.object->warnings);
