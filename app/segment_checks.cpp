@@ -73,8 +73,19 @@ void require_patient(const SegmentOptions& options) {
   }
 }
 
+/// {label} stands for an object of several.
+void require_objects_to_name(const SegmentOptions& options) {
+  if (options.scan.labels.given() || options.scan.places.seeds.size() > 1) return;
+  for (const fs::path& path : options.out.surfaces) {
+    if (!names_each(path)) continue;
+    throw CLI::ValidationError(
+        "--output", "expected --labels or several --seed for {label}, found " + path.string());
+  }
+}
+
 void require_outputs(const SegmentOptions& options) {
   require_some_output(options);
+  require_objects_to_name(options);
   require_utf8(options.out.name, "--name");
   for (const fs::path& path : options.out.surfaces) {
     require_output(path, written_surface_formats(), "--output");

@@ -111,6 +111,8 @@ TEST_F(SegmentObject, ADarkTissueTellsNativeUnits) {
 TEST_F(SegmentObject, RefusesInOneLineBeforeItReads) {
   write_bytes(folder / "balls.nrrd", "no scan");
   EXPECT_FAILS(segment({"--tissue", "wood"}), 2, "--tissue: expected bone, teeth");
+  EXPECT_FAILS(segment({"-o", folder / "{label}.stl"}), 2,
+               "--output: expected --labels or several --seed for {label}");
   EXPECT_FAILS(segment({"--seed", "1,2"}), 2, "--seed: point: expected X,Y,Z in mm");
   EXPECT_FAILS(segment({"--box", "1:2,3"}), 2, "--box: expected X0:X1");
   EXPECT_FAILS(segment({"--box", "1:20,,", "--crop", "1:9,,"}), 2,

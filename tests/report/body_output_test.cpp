@@ -229,6 +229,11 @@ TEST(BodyOutput, TellsWhatIsMissing) {
   body.tolerance = 0.1 + 0.2;
   body.facts.fit.surface_to_skin = 0.5123456789;
   EXPECT_THAT(unmet(body), testing::HasSubstr("at most 0.3, found 0.5123; set"));
+  body.facts.parts_dropped = 1;
+  EXPECT_THAT(unmet(body), testing::HasSubstr("found 0.5123, with 1 part of the objects that was "
+                                              "dropped; set"));
+  body.facts.parts_dropped = 2;
+  EXPECT_THAT(unmet(body), testing::HasSubstr("with 2 parts of the objects that were dropped; "));
   body.facts.quality.least_angle = 10.6999996;
   EXPECT_THAT(unmet(body), testing::HasSubstr("at least 10.7, found 10.6999996; "));
   request.sets.clear();

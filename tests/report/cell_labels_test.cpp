@@ -80,7 +80,7 @@ TEST(LabelSets, ShareTheCellsAmongBackgroundAndObjects) {
   ASSERT_EQ(sets.sets.size(), 3u);
   EXPECT_EQ(sets.sets[0].name, "BACKGROUND");
   EXPECT_EQ(sets.sets[1].name, "L7_first_ball");
-  EXPECT_EQ(sets.sets[2].name, "L9_2nd_b__ll");
+  EXPECT_EQ(sets.sets[2].name, "L9_2nd_b_ll");
   std::vector<double> volume(3, 0);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     volume[static_cast<std::size_t>(sets.of_cell[c])] += cell_volume(mesh, static_cast<Index>(c));

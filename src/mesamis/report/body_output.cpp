@@ -131,6 +131,12 @@ std::string unmet(const BodyOutput& body) {
   const double distance = std::max(fit.skin_to_surface, fit.surface_to_skin);
   expect(distance <= body.tolerance, "expected a distance to the surface, mm, of at most",
          body.tolerance, distance);
+  const std::int64_t dropped = body.facts.parts_dropped;
+  if (distance > body.tolerance && dropped > 0) {
+    missed += ", with " + std::to_string(dropped) +
+              (dropped == 1 ? " part of the objects that was" : " parts of the objects that were") +
+              " dropped";
+  }
   // The ratio is that of straight sides: what mid-side nodes add is not in it.
   const bool straight = body.elements.mid_nodes.empty();
   expect(!straight || std::abs(fit.volume_ratio - 1) <= 0.005,
