@@ -14,6 +14,7 @@
 #include "mesamis/files/read_record.h"
 #include "mesamis/image/not_numbers.h"
 #include "mesamis/volume_files/chunked_scan.h"
+#include "mesamis/volume_files/rounding_record.h"
 #include "ranges.h"
 
 namespace mesamis {
@@ -67,10 +68,12 @@ std::unique_ptr<FileSlices> open_any_slices(const std::filesystem::path& path,
 
 VolumeFile read_any_volume(const std::filesystem::path& path, const ReadOptions& options) {
   const ReadRecord record;
+  const RoundingRecord rounded;
   const auto scan = open_chunks(path, options);
   if (!scan) return read_volume(path, options);
   VolumeFile file = scan->head();
   file.volume.samples = scan->read(0, file.volume.size[2]);
+  rounded.warn(path, file.warnings);
   const std::vector<ReadFile> chunks = record.files();
   file.files.insert(file.files.end(), chunks.begin(), chunks.end());
   std::sort(file.files.begin(), file.files.end(),

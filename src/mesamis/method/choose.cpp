@@ -122,7 +122,8 @@ void require_level_in_data(const VolumeView& volume, const ImageSettings& settin
 }
 
 /// Settings that leave nothing to see, or nothing at the level, are refused.
-void require_contrast(const VolumeView& volume, const Parameters& p) {
+/// @param chosen  the window was not given.
+void require_contrast(const VolumeView& volume, const Parameters& p, bool chosen) {
   const double level = p.level;
   const double low = p.grey.threshold, high = p.grey.high;
   const auto [least, most] = sample_range(volume.samples);
@@ -132,6 +133,7 @@ void require_contrast(const VolumeView& volume, const Parameters& p) {
   if (!sees_samples) {
     message << "window: expected a range that contains samples, which lie between " << least
             << " and " << most << ", found " << low << "," << high;
+    if (chosen) message << ", chosen from the scan: --window LOW,HIGH sets it";
   } else if (p.surface == SurfaceKind::kSolid && !sees_level) {
     message << "level: expected a value between the window's ends and above the threshold, " << low
             << " to " << high << ", found " << level;
@@ -245,7 +247,7 @@ ChosenImage choose_but_cells(const VolumeView& image, const VoxelGrid& whole,
   if (!asked.gamma) {
     p.functional.gamma = choose_gamma(p, object.contrast.difference(), restored.noise_left);
   }
-  require_contrast(restored.volume, p);
+  require_contrast(restored.volume, p, !asked.window);
   found.restored = std::move(restored.volume);
   return found;
 }

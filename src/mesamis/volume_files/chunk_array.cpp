@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "mesamis/files/given_spacing.h"
 #include "mesamis/files/in_one_line.h"
 #include "mesamis/files/refuse.h"
+#include "mesamis/volume_files/rounding_record.h"
 
 namespace mesamis::detail::volume_files {
 namespace {
@@ -114,9 +116,14 @@ LeadAxes lead_axes(const fs::path& file, const ChunkLayout& layout,
 
 template <class Stored, class Number>
 void convert_line(const char* bytes, std::size_t stride, ByteOrder order, std::span<Number> out) {
+  constexpr bool kRounds = std::same_as<Number, float> && kMayBeRounded<Stored>;
+  RoundedSamples rounded;
   for (std::size_t n = 0; n < out.size(); ++n) {
-    out[n] = static_cast<Number>(load<Stored>(bytes + n * stride * sizeof(Stored), order));
+    const auto stored = load<Stored>(bytes + n * stride * sizeof(Stored), order);
+    out[n] = static_cast<Number>(stored);
+    if constexpr (kRounds) rounded.note(static_cast<Exact>(stored), out[n]);
   }
+  if constexpr (kRounds) note_rounded(rounded);
 }
 
 class ChunkArray : public ChunkedScan {

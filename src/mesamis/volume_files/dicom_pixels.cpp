@@ -8,6 +8,7 @@
 #include "mesamis/volume_files/dicom_jpeg.h"
 #include "mesamis/volume_files/dicom_rle.h"
 #include "mesamis/volume_files/gdcm_picture.h"
+#include "mesamis/volume_files/rounding_record.h"
 
 namespace mesamis::detail::volume_files {
 namespace {
@@ -114,9 +115,13 @@ struct WordReader {
 
 void append_words(Bytes words, const WordReader& reader, const FrameRescale& rescale,
                   std::vector<float>& out) {
+  RoundedSamples rounded;
   for (std::size_t at = 0; at < words.size(); at += static_cast<std::size_t>(reader.bytes)) {
-    out.push_back(static_cast<float>(rescale.slope * reader.value(&words[at]) + rescale.intercept));
+    const double value = rescale.slope * reader.value(&words[at]) + rescale.intercept;
+    out.push_back(static_cast<float>(value));
+    rounded.note(value, out.back());
   }
+  note_rounded(rounded);
 }
 
 void require_bits(const DicomFile& file, const DicomPixels& p, PixelUse use) {

@@ -16,6 +16,7 @@
 #include "mesamis/volume_files/dicom_store.h"
 #include "mesamis/volume_files/foreign_format.h"
 #include "mesamis/volume_files/formats.h"
+#include "mesamis/volume_files/rounding_record.h"
 #include "mesamis/volume_files/sheared_grid.h"
 #include "mesamis/volume_files/sidecar.h"
 #include "mesamis/volume_files/slice_stack.h"
@@ -349,9 +350,11 @@ void set_grid(VolumeInfo& info, const VoxelGrid& grid) {
 VolumeFile read_volume(const fs::path& path, const ReadOptions& options) {
   MemoryBudget budget(path, options.limits);
   const ReadRecord record;
+  const RoundingRecord rounded;
   return in_one_line(path, [&] {
     require_options(path, options);
     VolumeFile file = read_file({path, options, budget});
+    rounded.warn(path, file.warnings);
     apply_options(options, file);
     file.files = record.files();
     return file;

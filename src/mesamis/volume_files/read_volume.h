@@ -98,8 +98,10 @@ struct VolumeFile {
 /// @param path     file or directory; the extension decides, DICOM is known by its content.
 /// @param options  which DICOM series to take, a raw file's layout, another spacing.
 /// @return finite grid; one sample per voxel in native units (rescale slope and intercept
-///         applied), in single precision: integers of more than 24 bits are rounded.
-/// @throws InputError  one line that begins with the path: what, where, expected, found.
+///         applied), in single precision: integers of more than 24 bits are rounded. A warning says
+///         where that takes more than a 4096th of their range.
+/// @throws InputError  one line that begins with the path: what, where, expected, found. Also where
+///                     single precision leaves one value of samples that differ, or has none.
 ///
 /// O(voxels) and, for DICOM, the bytes of all files below the directory. Memory: 4 bytes per voxel,
 /// and one file of the series or one page at a time. What a header claims beyond what its file can

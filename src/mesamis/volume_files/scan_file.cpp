@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <concepts>
 #include <cstring>
 #include <limits>
 #include <system_error>
 
 #include "mesamis/base/error.h"
 #include "mesamis/files/refuse.h"
+#include "mesamis/volume_files/rounding_record.h"
 
 namespace mesamis::detail::volume_files {
 namespace {
@@ -34,9 +36,17 @@ std::string size_text(const ScanFile& scan) {
   return values == 1 ? voxels : message(voxels, " x ", values);
 }
 
+template <class Stored>
+Exact exact_value(Stored stored, const SampleSource& source, bool plain) {
+  const auto exact = static_cast<Exact>(stored);
+  return plain ? exact : source.slope * exact + source.intercept;
+}
+
 template <class Stored, class Number>
 void convert(std::span<const unsigned char> bytes, const SampleSource& source, Number* out) {
   const bool plain = source.slope == 1 && source.intercept == 0;
+  const bool rounds = std::same_as<Number, float> && (!plain || kMayBeRounded<Stored>);
+  RoundedSamples rounded;
   std::array<unsigned char, sizeof(Stored)> raw;
   for (std::size_t n = 0; n * sizeof(Stored) < bytes.size(); ++n) {
     std::memcpy(raw.data(), bytes.data() + n * sizeof(Stored), sizeof(Stored));
@@ -46,7 +56,9 @@ void convert(std::span<const unsigned char> bytes, const SampleSource& source, N
     out[n] =
         plain ? static_cast<Number>(stored)
               : static_cast<Number>(source.slope * static_cast<double>(stored) + source.intercept);
+    if (rounds) rounded.note(exact_value(stored, source, plain), static_cast<float>(out[n]));
   }
+  if (rounds) note_rounded(rounded);
 }
 
 template <class Number>
@@ -66,17 +78,20 @@ std::size_t group_size(const ScanFile& scan) {
   return static_cast<std::size_t>(scan.picked ? scan.inner : 1);
 }
 
-/// Keeps the sample that is picked of each group, from `begin` on.
-template <class Number>
-void keep_picked(const ScanFile& scan, std::vector<Number>& out, std::size_t begin) {
-  if (group_size(scan) == 1) return;
-  std::size_t kept = begin;
-  const std::size_t first = begin + static_cast<std::size_t>(scan.picked->inner);
-  for (std::size_t n = first; n < out.size(); n += group_size(scan)) out[kept++] = out[n];
-  out.resize(kept);
+/// Of the bytes of whole groups those of the samples that are picked, moved to the front.
+std::span<const unsigned char> picked_of(const ScanFile& scan, std::span<unsigned char> bytes) {
+  const std::size_t group = group_size(scan);
+  if (group == 1) return bytes;
+  const std::size_t width = byte_size(scan.source.type);
+  std::size_t kept = 0;
+  const std::size_t first = static_cast<std::size_t>(scan.picked->inner) * width;
+  for (std::size_t at = first; at < bytes.size(); at += group * width, kept += width) {
+    std::memmove(&bytes[kept], &bytes[at], width);
+  }
+  return bytes.first(kept);
 }
 
-/// Calls visit(bytes) for the next `count` groups, block by block.
+/// Calls visit(bytes) for the samples that are kept of the next `count` groups, block by block.
 template <class Visit>
 void read_binary(const ScanFile& scan, ByteSource& bytes, std::size_t count, const Visit& visit) {
   const std::size_t group = group_size(scan);
@@ -90,7 +105,7 @@ void read_binary(const ScanFile& scan, ByteSource& bytes, std::size_t count, con
       refuse_short(scan, std::uint64_t{count} * width, done * width + got, "bytes");
     }
     done += groups;
-    visit(std::span<const unsigned char>(block.data(), got));
+    visit(picked_of(scan, {block.data(), got}));
   }
 }
 
@@ -404,14 +419,6 @@ void go_to_samples(const ScanFile& scan, ByteSource& bytes) {
   bytes.skip(skip);
 }
 
-/// Appends the samples of a block that are kept.
-void append_picked(const ScanFile& scan, std::span<const unsigned char> block,
-                   std::vector<float>& out) {
-  const std::size_t begin = out.size();
-  append_samples(block, scan.source, out);
-  keep_picked(scan, out, begin);
-}
-
 }  // namespace
 
 std::vector<float> read_samples(const ScanFile& scan, MemoryBudget& budget) {
@@ -421,9 +428,14 @@ std::vector<float> read_samples(const ScanFile& scan, MemoryBudget& budget) {
   std::vector<float> samples;
   reserve_within(budget, samples, kept_count(scan), "samples");
   if (scan.source.text) {
-    read_text(scan, bytes, [&](double value) { samples.push_back(static_cast<float>(value)); });
+    RoundedSamples rounded;
+    read_text(scan, bytes, [&](double value) {
+      samples.push_back(static_cast<float>(value));
+      rounded.note(value, samples.back());
+    });
+    note_rounded(rounded);
   } else {
-    read_picked(scan, bytes, [&](auto block) { append_picked(scan, block, samples); });
+    read_picked(scan, bytes, [&](auto block) { append_samples(block, scan.source, samples); });
   }
   return samples;
 }
@@ -441,7 +453,6 @@ void visit_samples(const ScanFile& scan,
     read_picked(scan, bytes, [&](std::span<const unsigned char> block) {
       numbers.resize(block.size() / byte_size(scan.source.type));
       convert_any(block, scan.source, numbers.data());
-      keep_picked(scan, numbers, 0);
       visit(numbers);
     });
   }
@@ -470,7 +481,7 @@ void append_slices(const ScanFile& scan, std::uint64_t begin, const SliceRange& 
   const std::uint64_t group = byte_size(scan.source.type) * static_cast<std::uint64_t>(scan.inner);
   ByteSource bytes(scan.source.file, Packing::kPlain, begin + before * group);
   read_binary(scan, bytes, scan.grid.offset(0, 0, slices.count),
-              [&](auto block) { append_picked(scan, block, out); });
+              [&](auto block) { append_samples(block, scan.source, out); });
 }
 
 }  // namespace mesamis::detail::volume_files

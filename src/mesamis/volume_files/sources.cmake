@@ -8,6 +8,7 @@ set(ROOM_HEADERS
   nrrd_header.h
   open_slices.h
   read_volume.h
+  rounding_record.h
   scan_file.h
   slice_reader.h
   slice_stack.h
@@ -32,6 +33,7 @@ set(ROOM_SOURCES
   png_file.cpp
   raw_file.cpp
   read_volume.cpp
+  rounding_record.cpp
   scan_file.cpp
   slice_stack.cpp
   text_header.cpp
