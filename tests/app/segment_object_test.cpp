@@ -137,6 +137,7 @@ TEST_F(SegmentObject, RefusesInOneLineWhatDoesNotFitTheScan) {
   EXPECT_FAILS(segment({"--remove", "body"}), 3, "remove: expected a patient's body");
   EXPECT_FAILS(segment({"--tissue", "bone"}), 3, "Hounsfield");
   EXPECT_FAILS(segment({"--mask", folder / "none.nrrd"}), 3, "none.nrrd");
+  EXPECT_FAILS(segment({"--tissue", "6000:7000"}), 3, "found 6000:7000");
   EXPECT_EQ(folder.file_count(), 3) << "the scan, stdout and stderr";
 }
 

@@ -10,9 +10,13 @@
 #include "mesamis/object/mirror.h"
 #include "support/ball_volume.h"
 #include "support/sampled_volume.h"
+#include "support/throws.h"
 
 namespace mesamis {
 namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
 
 Settings preview() {
   Settings settings;
@@ -258,6 +262,24 @@ TEST(SettingsFor, LeaveTheLevelOpenWhereNobodyMeasuredIt) {
   paper.surface = SurfaceKind::kBand;
   EXPECT_FALSE(settings_for(measured, paper).level);
   EXPECT_FALSE(object_request(paper).measure_level);
+}
+
+/// Of a dark object too, whose image has changed its sign.
+TEST(RunOnObject, RefusesInTheUnitsOfTheScan) {
+  const Volume scan = sampled_volume({20, 20, 20}, {1, 1, 1}, [](const Vec3& p) {
+    return 100 - 90 * blurred_ball(norm(p - Vec3{9.5, 9.5, 9.5}), 6, 0.7);
+  });
+  Settings settings;
+  settings.level = 400;
+  const auto run = [&] {
+    ObjectRequest request = object_request(settings);
+    request.tissue = parse_tissue("dark");
+    run_on_object(choose_object(scan, request), settings);
+  };
+  EXPECT_REFUSED(run(), AllOf(HasSubstr("data, 10 to 100"), HasSubstr("found 400")));
+  settings.level.reset();
+  settings.window = Window{300, 400};
+  EXPECT_REFUSED(run(), HasSubstr("found 300,400"));
 }
 
 TEST(InScanUnits, TurnsWhatSettingsForTurned) {

@@ -20,6 +20,7 @@
 namespace mesamis {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 /// Two balls of 7 mm, 100 in 0, apart.
@@ -363,6 +364,25 @@ TEST(ChooseObject, RefusesInOneLineWhatDoesNotFit) {
   const LabelMap nothing = marks(kGrid, VoxelMask(kGrid.voxel_count()));
   EXPECT_REFUSED(choose({.remove = nothing}), HasSubstr("remove: expected marks"));
   EXPECT_REFUSED(choose({.mask = nothing}), HasSubstr("mask: expected an object"));
+}
+
+/// In the units of the scan, whatever the image's: of a crop, what the crop has.
+TEST(ChooseObject, RefusesARangeWithoutASurface) {
+  const auto choose = [](const char* range, const CropRange& crop = {}) {
+    choose_object(two_balls(), {.crop = crop, .tissue = parse_tissue(range)});
+  };
+  for (const char* range : {"6000:7000", "6000:", ":-6000"}) {
+    EXPECT_REFUSED(choose(range), AllOf(HasSubstr("tissue: expected a range with samples within"),
+                                        HasSubstr(std::string("found ") + range)))
+        << range;
+  }
+  for (const char* range : {"-5000:6000", "-5000:", ":6000"}) {
+    EXPECT_REFUSED(choose(range), HasSubstr("with samples beyond it, which lie between -"))
+        << range;
+  }
+  EXPECT_REFUSED(choose("90:200", {{0, 0, 0}, {4, 4, 4}}), HasSubstr("samples within"));
+  EXPECT_NO_THROW(choose("90:200"));
+  EXPECT_NO_THROW(choose(":50"));
 }
 
 TEST(SurfaceWarnings, NameTheSkin) {

@@ -108,12 +108,18 @@ double choose_gamma(const Parameters& p, double native_contrast, double native_n
                        native_noise * grey_per_native);
 }
 
+/// The least and the greatest of the samples, in units of the scan.
+Window range_of_data(const VolumeView& volume, const ImageUnits& units) {
+  const auto [least, most] = sample_range(volume.samples);
+  return units.turned(Window{least, most});
+}
+
 /// A level that no voxel, or every voxel, lies above has no surface, whatever the window is: it is
 /// refused before any work.
 void require_level_in_data(const VolumeView& volume, const ImageSettings& settings) {
   if (!settings.level || settings.asked.surface != SurfaceKind::kSolid) return;
-  const auto [least, most] = sample_range(volume.samples);
-  const double level = settings.level->value;
+  const auto [least, most] = range_of_data(volume, settings.units);
+  const double level = settings.units.turned(settings.level->value);
   if (least < level && level < most) return;
   std::ostringstream message;
   message << "level: expected a value between the least and the greatest of the data, " << least
@@ -122,21 +128,21 @@ void require_level_in_data(const VolumeView& volume, const ImageSettings& settin
 }
 
 /// Settings that leave nothing to see, or nothing at the level, are refused.
-/// @param chosen  the window was not given.
-void require_contrast(const VolumeView& volume, const Parameters& p, bool chosen) {
-  const double level = p.level;
-  const double low = p.grey.threshold, high = p.grey.high;
+void require_contrast(const VolumeView& volume, const Parameters& p,
+                      const ImageSettings& settings) {
   const auto [least, most] = sample_range(volume.samples);
-  const bool sees_samples = least < high && most > low;
-  const bool sees_level = low < level && level < high;
+  const bool sees_samples = least < p.grey.high && most > p.grey.threshold;
+  const bool sees_level = p.grey.threshold < p.level && p.level < p.grey.high;
+  const auto [low, high] = settings.units.turned(Window{p.grey.threshold, p.grey.high});
+  const Window data = settings.units.turned(Window{least, most});
   std::ostringstream message;
   if (!sees_samples) {
-    message << "window: expected a range that contains samples, which lie between " << least
-            << " and " << most << ", found " << low << "," << high;
-    if (chosen) message << ", chosen from the scan: --window LOW,HIGH sets it";
+    message << "window: expected a range that contains samples, which lie between " << data.low
+            << " and " << data.high << ", found " << low << "," << high;
+    if (!settings.asked.window) message << ", chosen from the scan: --window LOW,HIGH sets it";
   } else if (p.surface == SurfaceKind::kSolid && !sees_level) {
     message << "level: expected a value between the window's ends and above the threshold, " << low
-            << " to " << high << ", found " << level;
+            << " to " << high << ", found " << settings.units.turned(p.level);
   }
   if (!message.str().empty()) throw InputError(message.str());
 }
@@ -247,7 +253,7 @@ ChosenImage choose_but_cells(const VolumeView& image, const VoxelGrid& whole,
   if (!asked.gamma) {
     p.functional.gamma = choose_gamma(p, object.contrast.difference(), restored.noise_left);
   }
-  require_contrast(restored.volume, p, !asked.window);
+  require_contrast(restored.volume, p, settings);
   found.restored = std::move(restored.volume);
   return found;
 }

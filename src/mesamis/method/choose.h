@@ -9,6 +9,7 @@
 #include "mesamis/method/parameters.h"
 #include "mesamis/method/settings.h"
 #include "mesamis/object/known_level.h"
+#include "mesamis/object/mirror.h"
 #include "mesamis/restore/half_maximum_level.h"
 #include "mesamis/restore/restore.h"
 
@@ -21,6 +22,7 @@ struct ImageSettings {
   Settings asked{};                   ///< units of the image
   std::optional<KnownLevel> level{};  ///< of the object as a whole; nothing: that of its edge
   std::optional<ScanMeasure> scan{};  ///< of the scan that the image is a part of
+  ImageUnits units{};                 ///< to those of the scan, for messages
 
   ImageSettings() = default;
   /// The level, if any, is the user's.

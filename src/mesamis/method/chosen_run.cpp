@@ -28,6 +28,7 @@ ImageSettings settings_for(const ChosenObject& object, Settings settings) {
   ImageSettings of_image(settings);
   if (!object.tissue.empty() || given || measured) of_image = {settings, object.level};
   of_image.scan = object.scan;
+  of_image.units = units;
   return of_image;
 }
 

@@ -69,6 +69,24 @@ void warn_of_labels(const VolumeView& scan, std::vector<std::string>& warnings) 
   }
 }
 
+/// Whether a surface can lie at the ends of a range: samples lie within it and beyond it.
+struct SamplesOfRange {
+  float least, most;  ///< of all samples
+  bool within = false, beyond = false;
+};
+
+SamplesOfRange look_at_range(std::span<const float> samples, const Window& range) {
+  SamplesOfRange found{samples.front(), samples.front()};
+  for (const float sample : samples) {
+    const bool within = range.low < sample && sample < range.high;
+    found.within = found.within || within;
+    found.beyond = found.beyond || sample < range.low || range.high < sample;
+    found.least = std::min(found.least, sample);
+    found.most = std::max(found.most, sample);
+  }
+  return found;
+}
+
 /// The steps of choose_object().
 class ObjectChooser {
  public:
@@ -94,6 +112,7 @@ class ObjectChooser {
     remove_surroundings();
     if (chosen_.kind == TissueKind::kBright) remove_marked();
     turn();
+    require_range_in_data();
     if (chosen_.kind == TissueKind::kDark && request_.tissue->in_patient) fill_around_patient();
     find_level();
     measure_before_crop();
@@ -111,6 +130,20 @@ class ObjectChooser {
 
  private:
   void fill_padding() {
+  /// A range of values without a surface is refused in the units of the scan.
+  void require_range_in_data() const {
+    if (request_.level || !request_.tissue || !request_.tissue->level_is_given()) return;
+    const bool whole = request_.crop == CropRange{};
+    const Volume part = whole ? Volume{} : crop(chosen_.volume, request_.crop);
+    const SamplesOfRange found =
+        look_at_range(whole ? chosen_.volume.samples : part.samples, request_.tissue->values);
+    if (found.within && found.beyond) return;
+    throw InputError(
+        line("tissue: expected a range with samples %s it, which lie between %.6g and "
+             "%.6g, found %s",
+             found.within ? "beyond" : "within", found.least, found.most, chosen_.tissue.c_str()));
+  }
+
     auto padding = find_padding(chosen_.volume, request_.padding);
     if (!padding && request_.padding.value) {
       chosen_.warnings.push_back(
