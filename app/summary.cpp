@@ -120,10 +120,13 @@ void name_object(const OutcomeDetails& outcome, RunFigures& figures) {
   if (!figures.objects.empty()) {
     figures.objects.front().name = named ? outcome.object->tissue : "all that is bright";
   }
-  if (result.parameters.surface == SurfaceKind::kSolid) figures.level = result.parameters.level;
+  const bool range = outcome.object && outcome.object->kind == TissueKind::kRange;
+  const bool solid = result.parameters.surface == SurfaceKind::kSolid;
+  if (solid && !range) figures.level = result.parameters.level;
   if (result.image.has_local_levels()) figures.level_range = result.image.level_range;
-  // The object's image is called CT also where its values told so.
-  const bool is_ct = outcome.grid.modality == "CT" || outcome.image().modality == "CT";
+  // Of the object's image only a bright one is called CT.
+  const bool is_ct =
+      outcome.grid.modality == "CT" || (outcome.object && outcome.object->hounsfield);
   figures.unit = is_ct ? "HU" : "native units";
 }
 

@@ -12,6 +12,7 @@
 namespace mesamis {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -123,3 +124,21 @@ TEST(Summary, SaysHounsfieldUnitsWhereOnlyTheValuesTellThem) {
 
 }  // namespace
 }  // namespace mesamis
+/// The level of a dark tissue of CT is in HU; a range of values has two ends, and no level.
+TEST(Summary, SaysTheLevelOfATissueWhereThereIsOne) {
+  const TempFolder folder;
+  write_nrrd(folder / "scan.nrrd", sampled_volume({20, 20, 20}, {1, 1, 1}, [&](const Vec3& p) {
+               return -1000 + 1400 * blurred_ball(norm(p - Vec3{9.5, 9.5, 9.5}), 6, 0.7);
+             }));
+  const auto summary = [&](const std::string& tissue) {
+    return run_program(folder, {"segment", folder / "scan.nrrd", "-o", folder / "a.stl",
+                                "--preview", "--tissue", tissue})
+        .err;
+  };
+  for (const char* tissue : {"bone", "dark", "-300:", ":-300"}) {
+    EXPECT_THAT(summary(tissue), testing::ContainsRegex("level -?[0-9.]+ HU")) << tissue;
+  }
+  EXPECT_THAT(summary("-300:100"),
+              AllOf(HasSubstr("object   -300:100, "), Not(HasSubstr(" level "))));
+}
+

@@ -95,6 +95,7 @@ class ObjectChooser {
         units_(request.tissue ? request.tissue->kind : TissueKind::kBright),
         in_hounsfield_(is_hounsfield(scan)) {
     chosen_.volume = std::move(scan);
+    chosen_.hounsfield = in_hounsfield_;
     if (in_hounsfield_) chosen_.volume.modality = "CT";  // a part without air tells it no more
     chosen_.crop = request.crop;
     if (request.tissue) {
@@ -111,8 +112,8 @@ class ObjectChooser {
     fill_padding();
     remove_surroundings();
     if (chosen_.kind == TissueKind::kBright) remove_marked();
-    turn();
     require_range_in_data();
+    turn();
     if (chosen_.kind == TissueKind::kDark && request_.tissue->in_patient) fill_around_patient();
     find_level();
     measure_before_crop();
@@ -129,7 +130,6 @@ class ObjectChooser {
   }
 
  private:
-  void fill_padding() {
   /// A range of values without a surface is refused in the units of the scan.
   void require_range_in_data() const {
     if (request_.level || !request_.tissue || !request_.tissue->level_is_given()) return;
@@ -144,6 +144,7 @@ class ObjectChooser {
              found.within ? "beyond" : "within", found.least, found.most, chosen_.tissue.c_str()));
   }
 
+  void fill_padding() {
     auto padding = find_padding(chosen_.volume, request_.padding);
     if (!padding && request_.padding.value) {
       chosen_.warnings.push_back(
@@ -413,7 +414,8 @@ std::optional<ChosenObject> choose_in_place(const VolumeView& scan, const Object
   }
   ChosenObject chosen;
   static_cast<VoxelGrid&>(chosen.volume) = scan;
-  if (is_hounsfield(scan)) chosen.volume.modality = "CT";
+  chosen.hounsfield = is_hounsfield(scan);
+  if (chosen.hounsfield) chosen.volume.modality = "CT";
   if (!request.has_labels) warn_of_labels(scan, chosen.warnings);
   if (request.level) chosen.level = {*request.level, LevelSource::kUser};
   return chosen;

@@ -28,6 +28,7 @@ struct FilledPadding {
 struct ChosenObject {
   Volume volume;                          ///< the object is brighter than what is around it
   TissueKind kind = TissueKind::kBright;  ///< dark: mirrored(); range: within_range()
+  bool hounsfield = false;                ///< the scan, before anything changed, was in HU
   std::string tissue;                     ///< its name; empty: none was asked for
   std::optional<KnownLevel> level;        ///< nothing: the run measures it
   CropRange crop;                         ///< the part of the scan that the volume is

@@ -135,11 +135,14 @@ void add_several_objects(Html& tiles, const json& report) {
 }
 
 /// The numbers of the method.
+/// Whether the surface encloses a range of values, so that a level says nothing.
+bool is_range(const json& report) { return entry(report, "/object/image") == "within range"; }
+
 Html method_tiles(const json& report) {
   Html tiles = of_class("dl", "tiles method");
   const std::string native = native_unit(report);
   const json& level = entry(report, "/surface/level_native");
-  if (level.is_number()) {
+  if (level.is_number() && !is_range(report)) {
     const bool ct = native == "HU";
     Html value = datum_as(report, "/surface/level_native",
                           significant_text(level.get<double>(), ct ? 3 : 4) + "\u00a0" + native);
@@ -234,8 +237,13 @@ Html surface_sentence(const json& report) {
   }
   if (!has(report, "/surface/triangles")) return p;
   if (has(report, "/surface/level_native")) {
-    p.text("The surface is the level set at ")
-        .add(datum(report, "/surface/level_native", native_unit(report)));
+    if (is_range(report)) {
+      p.text("The surface encloses the values ")
+          .add(datum(report, "/object/tissue", native_unit(report)));
+    } else {
+      p.text("The surface is the level set at ")
+          .add(datum(report, "/surface/level_native", native_unit(report)));
+    }
     if (has(report, "/surface/tolerance_mm")) {
       p.text(", decimated within ").add(datum(report, "/surface/tolerance_mm", "mm"));
     }
