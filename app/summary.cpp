@@ -39,6 +39,14 @@ std::string closed_text(const SurfaceCheck& check) {
   return check.closed() ? "closed" : "not closed";
 }
 
+/// "1 part, 13 cavities": only of a closed surface is it known which skins enclose holes.
+std::string parts_text(const SurfaceCheck& check) {
+  if (!check.closed()) return plural(check.components, "part");
+  const std::string parts = plural(check.islands, "part");
+  if (check.cavities == 0) return parts;
+  return parts + ", " + grouped(check.cavities) + (check.cavities == 1 ? " cavity" : " cavities");
+}
+
 /// One of several.
 std::string object_text(const ObjectFigures& object) {
   if (object.triangles == 0) return object.name + ": no surface";
@@ -51,8 +59,7 @@ std::string object_text(const ObjectFigures& object) {
 /// The only one, whose figures follow in lines of their own.
 std::string single_text(const ObjectFigures& object) {
   if (object.triangles == 0) return object.name + ": no surface";
-  return object.name + ", " + plural(object.check.components, "part") + ", " +
-         closed_text(object.check);
+  return object.name + ", " + parts_text(object.check) + ", " + closed_text(object.check);
 }
 
 /// The lines that name the objects, without their heads.

@@ -22,6 +22,7 @@ SurfaceCheck closed_check(double mm3) {
   SurfaceCheck check;
   check.volume = mm3;
   check.components = 1;
+  check.islands = 1;
   return check;
 }
 
@@ -43,6 +44,21 @@ TEST(Summary, SaysInFiveLinesWhatPeopleAskFor) {
                           "surface  105 158 triangles, level 198.8 HU",
                           "error    0.30 mm expected in the mean, 95 % below 0.71 mm",
                           "files    out: bone.stl bone.json"));
+}
+
+/// Parts are what the report calls islands; skins around holes are told beside them.
+TEST(Summary, TellsPartsFromCavities) {
+  RunFigures run = one_object();
+  SurfaceCheck& check = run.objects[0].check;
+  check.components = 14;
+  check.cavities = 13;
+  EXPECT_EQ(summary_lines(run)[0], "object   bone, 1 part, 13 cavities, closed");
+  check.islands = 2;
+  check.cavities = 1;
+  EXPECT_EQ(summary_lines(run)[0], "object   bone, 2 parts, 1 cavity, closed");
+  check.islands = check.cavities = 0;
+  check.open_edges = 3;
+  EXPECT_EQ(summary_lines(run)[0], "object   bone, 14 parts, not closed");
 }
 
 TEST(Summary, HasALineForEachOfSeveralObjects) {
@@ -122,8 +138,6 @@ TEST(Summary, SaysHounsfieldUnitsWhereOnlyTheValuesTellThem) {
   }
 }
 
-}  // namespace
-}  // namespace mesamis
 /// The level of a dark tissue of CT is in HU; a range of values has two ends, and no level.
 TEST(Summary, SaysTheLevelOfATissueWhereThereIsOne) {
   const TempFolder folder;
@@ -142,3 +156,5 @@ TEST(Summary, SaysTheLevelOfATissueWhereThereIsOne) {
               AllOf(HasSubstr("object   -300:100, "), Not(HasSubstr(" level "))));
 }
 
+}  // namespace
+}  // namespace mesamis
