@@ -30,9 +30,13 @@ TEST(RunJson, HoldsTheValuesUsedAndWhereTheyCameFrom) {
     ASSERT_EQ(report["chosen"].contains(setting.name), !setting.automatic.empty()) << setting.name;
     if (setting.automatic.empty()) continue;
     const auto& chosen = report["chosen"][setting.name];
-    const bool measured = origin_of(setting, asked) == Origin::kMeasured;
+    const bool given = origin_of(setting, asked) == Origin::kGiven;
+    const bool measured = origin_of(setting, asked) == Origin::kMeasured || setting.name == "level";
     EXPECT_EQ(chosen["value"], report["settings"][setting.name]) << setting.name;
-    EXPECT_EQ(chosen["source"], measured ? "measured" : "given") << setting.name;
+    EXPECT_EQ(chosen["source"], measured ? "measured"
+                                : given  ? "given"
+                                         : "default")
+        << setting.name;
     EXPECT_EQ(chosen["reason"].is_null(), !measured) << setting.name;
   }
   EXPECT_EQ(report["chosen"]["level"]["uncertainty"], report["quality"]["level_uncertainty"]);
@@ -40,6 +44,21 @@ TEST(RunJson, HoldsTheValuesUsedAndWhereTheyCameFrom) {
   EXPECT_EQ(report["iterations"].size(), result.iterations.size());
   EXPECT_TRUE(report["iterations"][0]["energy_change"].is_null()) << "nothing to compare with";
   EXPECT_EQ(report["surface"]["closed"], true);
+}
+
+/// The default of the level, local, is measured; a level is given where somebody gave it.
+TEST(RunJson, TellsAMeasuredLevelFromAGivenOne) {
+  RunSummary run;
+  run.parameters.tolerance = 0.1;
+  run.iterations.resize(2);
+  for (const bool in_places : {true, false}) {
+    run.parameters.local_level = in_places;
+    EXPECT_EQ(run_json({}, run)["chosen"]["level"]["source"], "measured") << in_places;
+    EXPECT_FALSE(run_json({}, run)["chosen"]["level"]["reason"].is_null()) << in_places;
+  }
+  Settings asked;
+  asked.level = 300;
+  EXPECT_EQ(run_json(asked, run)["chosen"]["level"]["source"], "given");
 }
 
 TEST(RunJson, TellsThePresetFromTheUser) {

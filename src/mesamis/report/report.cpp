@@ -134,12 +134,15 @@ ordered_json chosen_json(const Settings& asked, const ordered_json& used,
   ordered_json chosen = ordered_json::object();
   for (const Setting& setting : setting_table()) {
     if (setting.automatic.empty()) continue;
-    const bool measured = origin_of(setting, asked) == Origin::kMeasured;
     const bool is_level = setting.name == "level" && used["level"].is_number();
+    const Origin origin = origin_of(setting, asked);
+    const bool local = setting.name == "level" && asked.has_local_level();  // measured, by default
+    const bool measured = origin == Origin::kMeasured || local;
     chosen[setting.name] = {
         {"value", used[setting.name]},
         {"source", measured                       ? "measured"
                    : is_of_preset(setting, asked) ? "preset"
+                   : origin == Origin::kDefault   ? "default"
                                                   : "given"},
         {"uncertainty", known(is_level && image.level_uncertainty > 0, image.level_uncertainty)},
         {"reason", measured ? ordered_json(setting.automatic) : ordered_json()}};

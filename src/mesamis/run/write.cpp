@@ -125,6 +125,16 @@ void write_report(const OutcomeDetails& o, const RunFiles& w, ordered_json repor
   if (w.facts.written) w.facts.written(report, set);
 }
 
+/// A level that --tissue gave with its range was not measured.
+void tell_level_of_tissue(const OutcomeDetails& o, ordered_json& report) {
+  const auto& tissue = o.object_asked.tissue;
+  const bool from_tissue = o.object && o.object->level && tissue && tissue->level_is_given() &&
+                           o.object->level->from == LevelSource::kTissue;
+  if (!from_tissue || !report.contains("chosen") || !report["chosen"].contains("level")) return;
+  report["chosen"]["level"]["source"] = "tissue";
+  report["chosen"]["level"]["reason"] = nullptr;
+}
+
 }  // namespace
 
 ordered_json detail::run::report_json(const OutcomeDetails& o, const RunFiles& w) {
@@ -139,6 +149,7 @@ ordered_json detail::run::report_json(const OutcomeDetails& o, const RunFiles& w
   if (o.one && o.object) report["object"] = chosen;
   report.update(found_json(o));
   if (o.object) report["object"].update(chosen);
+  tell_level_of_tissue(o, report);
   report["warnings"] = warnings_json(o, facts);
   report["verdict"] = {{"kept", o.verdict.kind == VerdictKind::kKept},
                        {"message", o.verdict.message}};
