@@ -33,6 +33,18 @@ std::string number_text(double value) {
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
+namespace {
+
+/// With an exponent: 1.074e+09.
+std::string scientific_text(double value, int digits) {
+  char text[32];
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, digits - 1);
+  return {text, end.ptr};
+}
+
+}  // namespace
+
 std::string rounded_text(double value, int digits) {
   char text[32];
   const auto end =
@@ -42,13 +54,17 @@ std::string rounded_text(double value, int digits) {
 }
 
 std::string significant_text(double value, int digits) {
+  constexpr double kSmall = 1e-4, kLarge = 1e6;
+  if (value != 0 && !(std::abs(value) >= kSmall && std::abs(value) < kLarge)) {
+    return scientific_text(value, digits);
+  }
   const auto decimals_of = [&](double x) {
     const double size = std::abs(x);
     const int before = size > 0 ? static_cast<int>(std::floor(std::log10(size))) + 1 : 1;
-    return std::clamp(digits - before, 0, 300);
+    return std::max(digits - before, 0);
   };
   const auto write = [](double x, int decimals) {
-    char text[700];
+    char text[64];
     const auto end = std::to_chars(text, text + sizeof text, x, std::chars_format::fixed, decimals);
     return std::string(text, end.ptr);
   };

@@ -30,9 +30,9 @@ std::string number_text(double value);
 /// @param digits  1 to 17.
 std::string rounded_text(double value, int digits = 6);
 
-/// A number in decimals, rounded to so many significant digits, without an exponent: 0.30, 12, 803,
-/// 105 158 (groups of three from 10 000 on). Digits before the point are never cut: 105158 keeps
-/// six.
+/// A number in decimals, rounded to so many significant digits: 0.30, 12, 803, 105 158 (groups of
+/// three from 10 000 on). Digits before the point are not cut: 105158 keeps six. Below 1e-4 and
+/// from a million on with an exponent: 6.25e-32.
 /// @param value   in any unit, finite.
 /// @param digits  1 to 17.
 std::string significant_text(double value, int digits);

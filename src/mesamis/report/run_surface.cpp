@@ -15,7 +15,7 @@ namespace {
 [[noreturn]] void refuse_volume(const SelectionReport& parts, double least, bool is_given) {
   const std::string found = ", found " + std::to_string(parts.islands_dropped) + " of " +
                             rounded_text(parts.volume_dropped) + " mm^3 in all";
-  const std::string bound = number_text(least) + " mm^3";
+  const std::string bound = (is_given ? number_text(least) : rounded_text(least, 4)) + " mm^3";
   throw InputError(
       "surface: expected a part of at least " +
       (is_given ? "--min-volume " + bound + found : bound + found + "; --min-volume 0 keeps them"));
