@@ -126,6 +126,14 @@ TEST(IsHounsfield, IsNoImageOfOtherValues) {
     return p.x < 8 ? 0 : noise(generator) + (p.x > 30 ? 300 : 0);
   });
   EXPECT_FALSE(is_hounsfield(difference)) << "a difference of two images";
+  // The dark tail of the noise in air or water of another scanner is no fat.
+  for (const double deviation : {8.0, 10.0, 15.0}) {
+    std::normal_distribution<double> of_phase(0, deviation);
+    EXPECT_FALSE(is_hounsfield(sampled_volume({40, 40, 40}, {1, 1, 1}, [&](const Vec3& p) {
+      const double r = norm(p - Vec3{20, 20, 20});
+      return std::trunc((r < 8 ? 1000 : r < 15 ? 100 : 0) + of_phase(generator));
+    }))) << deviation;
+  }
 }
 
 TEST(DefaultWindow, IsNeverEmpty) {

@@ -158,8 +158,10 @@ class HounsfieldCounts {
   /// Fat, soft tissue and something brighter, above a floor that is air's or none.
   bool has_tissue() const {
     const std::size_t dark = within(-1500, -1100), bright = within(200, kHigh);
-    return is_of_tissue() && 4 * within(-200, 300) >= all_ && 200 * within(-140, -20) >= all_ &&
-           1000 * dark <= all_ && 2000 * bright >= all_ && 20 * zeros_ < all_;
+    // Fat is no tail of the noise around 0.
+    const bool fat = 200 * within(-140, -20) >= all_ && 4000 * within(-140, -60) >= all_;
+    return is_of_tissue() && fat && 4 * within(-200, 300) >= all_ && 1000 * dark <= all_ &&
+           2000 * bright >= all_ && 20 * zeros_ < all_;
   }
 
  private:

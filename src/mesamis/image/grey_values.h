@@ -63,9 +63,10 @@ OtsuSplit otsu_split(std::span<const float> samples,
 ///
 /// Air tells it: at least one sample in 200 of -1100 to -840, at most half as many below that down
 /// to -1500, and something above 0. So do tissues, where a part of a scan has no air: a quarter of
-/// all samples lie in -200 to 300, one in 200 in -140 to -20 (fat), one in 2000 above 200; the most
-/// frequent value, in bins of 20, lies in -140 to 140, or the least samples are those of air; one
-/// in 1000 at most is darker than air, and one in 20 is 0. Neither asks how bright metal is.
+/// all samples lie in -200 to 300, one in 200 in -140 to -20 (fat; one in 4000 below -60, where
+/// noise around 0 has none), one in 2000 above 200; the most frequent value, in bins of 20, lies in
+/// -140 to 140, or the least samples are those of air; one in 1000 at most is darker than air, and
+/// one in 20 is 0. Neither asks how bright metal is.
 /// @param volume  at least one sample, all finite.
 ///
 /// O(voxels) where the modality is unknown.
