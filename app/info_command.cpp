@@ -135,7 +135,8 @@ std::string mesh_line(const fs::path& path, const ReadLimits& limits) {
   const MeshWithArrays mesh = read_mesh(path, limits);
   std::ostringstream line;
   line << one_line(path.filename().string()) << "  mesh  " << mesh.mesh.cells.size()
-       << " tetrahedra, " << mesh.mesh.points.size() << " vertices, " << box_text(mesh.mesh.points);
+       << (mesh.quadratic ? " quadratic" : "") << " tetrahedra, " << mesh.mesh.points.size()
+       << " vertices, " << box_text(mesh.mesh.points);
   const char* separator = ", arrays ";
   for (const auto* arrays : {&mesh.point_arrays, &mesh.cell_arrays}) {
     for (const MeshArray& array : *arrays) {

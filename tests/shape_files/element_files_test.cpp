@@ -32,6 +32,20 @@ std::vector<double> cell_array(const MeshWithArrays& grid, const std::string& na
   return {};
 }
 
+/// Of quadratic elements the corners; the nodes between them stay, with their values.
+TEST(ElementFiles, VtuOfQuadraticElementsReadsBackByItsCorners) {
+  const TempFolder folder;
+  const FiniteElements e = two_elements(true);
+  write_elements(folder / "m.vtu", e, {});
+  const MeshWithArrays found = read_mesh(folder / "m.vtu");
+  EXPECT_TRUE(found.quadratic);
+  EXPECT_EQ(found.mesh.points, e.points);
+  EXPECT_EQ(found.mesh.cells, e.cells);
+  EXPECT_THAT(cell_array(found, "part"), ElementsAre(1, 3));
+  write_elements(folder / "l.vtu", two_elements(false), {});
+  EXPECT_FALSE(read_mesh(folder / "l.vtu").quadratic);
+}
+
 TEST(ElementFiles, VtuOfLinearElementsReadsBack) {
   const TempFolder folder;
   const FiniteElements e = two_elements(false);

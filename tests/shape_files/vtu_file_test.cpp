@@ -137,6 +137,7 @@ TEST(Vtu, RefusesOtherFilesAndOtherCells) {
   EXPECT_REFUSED(one_cell("9", "0 1 2 3"), HasSubstr("VTK type 9"));
   EXPECT_REFUSED(one_cell("10", "0 1 2 4"), HasSubstr("names a missing point"));
   EXPECT_REFUSED(one_cell("10", "0 1 2 -1"), HasSubstr("names a missing point"));
+  EXPECT_REFUSED(one_cell("24", "0 1 2 3"), HasSubstr("cell 0 has not ten points"));
 }
 
 TEST(Vtu, RefusesAHeaderThatPromisesTooMuch) {

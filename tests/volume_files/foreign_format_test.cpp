@@ -15,6 +15,9 @@ using testing::HasSubstr;
 TEST(ForeignFormat, IsNamedWithAWayOut) {
   EXPECT_EQ(foreign_format("dir/a.CZI"), "a Zeiss CZI file: save it as OME-TIFF (Fiji, bfconvert)");
   EXPECT_EQ(foreign_format("a.mnc"), "a MINC file: convert it to NIfTI (mnc2nii)");
+  for (const char* mesh : {"a.inp", "a.feb", "a.msh"}) {
+    EXPECT_THAT(foreign_format(mesh), HasSubstr("meshes are read as .vtu and .mesh")) << mesh;
+  }
   EXPECT_EQ(foreign_format("a.nii"), "");
   EXPECT_EQ(foreign_format("czi"), "");
 }

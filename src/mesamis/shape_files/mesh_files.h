@@ -73,10 +73,11 @@ void write_pvtu(const OutputPath& path, std::span<const std::string> pieces,
 struct MeshWithArrays {
   TetMesh mesh;  ///< points in LPS mm where the file states its frame, else as the file has them
   std::vector<MeshArray> point_arrays, cell_arrays;
+  bool quadratic = false;  ///< read of cells with mid-side nodes: these are points of no cell
 };
 
 /// Reads a VTK XML unstructured grid (.vtu) of one piece of tetrahedra: text, base64 or raw, plain
-/// or compressed by zlib.
+/// or compressed by zlib. Of quadratic ones the cells have the corners.
 ///
 /// @return n >= 1 points, m cells with indices in [0, n). Cells may have any volume. Arrays of type
 ///         String are left out.

@@ -96,32 +96,57 @@ class VtuParser {
     refuse(file_, message("cell ", cell, " ", what));
   }
 
+  /// The numbers of points of the cells: 4, or 10 with mid-side nodes.
+  std::vector<std::uint8_t> read_sizes(const XmlElement& piece, std::size_t count) {
+    std::vector<double> types = values_of(piece, "Cells", "types", count);
+    std::vector<std::uint8_t> sizes;
+    reserve_within(budget_, sizes, count, "types of cells");
+    for (std::size_t c = 0; c < count; ++c) {
+      const bool quadratic = types[c] == kQuadraticTetrahedronType;
+      if (!quadratic && types[c] != kTetrahedronType) {
+        refuse_cell(c, message("is of VTK type ", types[c], ", expected tetrahedra (type ",
+                               kTetrahedronType, ", or ", kQuadraticTetrahedronType,
+                               " with mid-side nodes)"));
+      }
+      contents_.grid.quadratic = contents_.grid.quadratic || quadratic;
+      sizes.push_back(quadratic ? 10 : 4);
+    }
+    free_within(budget_, types);
+    return sizes;
+  }
+
   void read_cells(const XmlElement& piece) {
     const std::size_t count = index_count(piece, "NumberOfCells");
     if (count == 0) return;
-    std::vector<double> types = values_of(piece, "Cells", "types", count);
+    std::vector<std::uint8_t> sizes = read_sizes(piece, count);
+    std::vector<double> offsets = values_of(piece, "Cells", "offsets", count);
+    std::size_t end = 0;
     for (std::size_t c = 0; c < count; ++c) {
-      if (types[c] != kTetrahedronType) {
-        refuse_cell(c, message("is of VTK type ", types[c], ", expected tetrahedra (type ",
-                               kTetrahedronType, ")"));
+      end += sizes[c];
+      if (offsets[c] != static_cast<double>(end)) {
+        refuse_cell(c, message("has not ", sizes[c] == 4 ? "four" : "ten", " points"));
       }
     }
-    free_within(budget_, types);
-    std::vector<double> offsets = values_of(piece, "Cells", "offsets", count);
-    for (std::size_t c = 0; c < count; ++c) {
-      if (offsets[c] != 4.0 * static_cast<double>(c + 1)) refuse_cell(c, "has not four points");
-    }
     free_within(budget_, offsets);
-    std::vector<double> corners = values_of(piece, "Cells", "connectivity", 4 * count);
+    std::vector<double> nodes = values_of(piece, "Cells", "connectivity", end);
     TetMesh& mesh = contents_.grid.mesh;
-    const auto points = static_cast<double>(mesh.points.size());
     reserve_within(budget_, mesh.cells, count, "cells");
     mesh.cells.resize(count);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      if (!(corners[i] >= 0 && corners[i] < points)) refuse_cell(i / 4, "names a missing point");
-      mesh.cells[i / 4][i % 4] = static_cast<Index>(corners[i]);
+    std::size_t first = 0;
+    for (std::size_t c = 0; c < count; first += sizes[c], ++c) {
+      for (std::size_t i = 0; i < sizes[c]; ++i) {
+        const Index node = point_of(nodes[first + i], c);
+        if (i < 4) mesh.cells[c][i] = node;
+      }
     }
-    free_within(budget_, corners);
+    free_within(budget_, nodes);
+    free_within(budget_, sizes);
+  }
+
+  Index point_of(double node, std::size_t cell) const {
+    const auto points = static_cast<double>(contents_.grid.mesh.points.size());
+    if (!(node >= 0 && node < points)) refuse_cell(cell, "names a missing point");
+    return static_cast<Index>(node);
   }
 
   std::vector<MeshArray> arrays(const XmlElement* data, std::size_t count) {

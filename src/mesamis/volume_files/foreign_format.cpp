@@ -16,7 +16,8 @@ struct ForeignFormat {
 
 constexpr std::string_view kOme = "save it as OME-TIFF (Fiji, bfconvert)",
                            kNrrd = "save it as NRRD or TIFF", kStl = "save it as STL",
-                           kDicom = "export its images as DICOM";
+                           kDicom = "export its images as DICOM",
+                           kMesh = "meshes are read as .vtu and .mesh";
 
 constexpr std::array kForeign{
     ForeignFormat{".czi", "a Zeiss CZI file", kOme},
@@ -50,6 +51,9 @@ constexpr std::array kForeign{
     ForeignFormat{".hx", "an Amira project", kNrrd},
     ForeignFormat{".mrb", "a scene of 3D Slicer", "unpack it and take the volume inside"},
     ForeignFormat{".mrml", "a scene of 3D Slicer", "take the volume that it names"},
+    ForeignFormat{".inp", "a mesh of Abaqus or CalculiX", kMesh},
+    ForeignFormat{".feb", "a mesh of FEBio", kMesh},
+    ForeignFormat{".msh", "a mesh of Gmsh", kMesh},
     ForeignFormat{".off", "a surface", kStl},
     ForeignFormat{".wrl", "a surface", kStl},
     ForeignFormat{".gii", "a surface", kStl}};
