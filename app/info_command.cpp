@@ -9,6 +9,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "label_lines.h"
+#include "label_options.h"
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/image/grey_values.h"
@@ -148,7 +149,7 @@ std::string mesh_line(const fs::path& path, const ReadLimits& limits) {
 }
 
 LabelFile read_labels(const InfoCommand& command) {
-  LabelFile file = read_label_map(command.input, {.limits = command.read.limits});
+  LabelFile file = read_label_map(command.input, read_like(command.read, false));
   for (const std::string& warning : file.warnings) log_warning(warning);
   return file;
 }

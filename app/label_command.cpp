@@ -8,6 +8,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "label_lines.h"
+#include "label_options.h"
 #include "log.h"
 #include "mesamis/base/error.h"
 #include "mesamis/label_files/read_labels.h"
@@ -35,7 +36,7 @@ VoxelGrid grid_like(const LabelCommand& command) {
   if (command.read.raw || !is_label_file(command.like, command.read.limits)) {
     return read_any_grid(command.like, command.read);
   }
-  return read_label_map(command.like, {.limits = command.read.limits}).map;
+  return read_label_map(command.like, read_like(command.read, false)).map;
 }
 
 /// A file of one object names it; that of several does.

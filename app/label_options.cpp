@@ -19,6 +19,12 @@ void log_all(const std::vector<std::string>& warnings) {
 
 }  // namespace
 
+LabelOptions read_like(const ReadOptions& scan, bool has_scan) {
+  return {.limits = scan.limits,
+          .spacing = has_scan ? std::nullopt : scan.spacing,
+          .resample = scan.resample};
+}
+
 void add_label_options(CLI::App& command, LabelArguments& a) {
   CLI::Option* const labels =
       command.add_option("--labels", a.file,
@@ -50,7 +56,9 @@ LabelMap read_marks(const std::filesystem::path& path, const LabelOptions& optio
 
 LabelMap read_named_labels(const LabelArguments& a, const std::function<VoxelGrid()>& scan,
                            std::vector<std::string>& warnings) {
-  LabelMap map = read_marks(a.file, {a.limits, scan}, warnings);
+  LabelOptions how = a.read;
+  how.scan = scan;
+  LabelMap map = read_marks(a.file, how, warnings);
   return a.names.empty() ? map : with_names(std::move(map), read_label_table(a.names));
 }
 
@@ -60,7 +68,7 @@ LabelChoice read_label_choice(const LabelArguments& a, const std::function<Voxel
   if (!a.file.empty()) {
     choice.map = read_named_labels(a, scan, warnings);
   } else {
-    ProbabilityFile file = read_probabilities(a.probabilities, a.limits);
+    ProbabilityFile file = read_probabilities(a.probabilities, a.read);
     log_all(file.warnings);
     warnings.insert(warnings.end(), file.warnings.begin(), file.warnings.end());
     choice.map = most_probable(file.probabilities);

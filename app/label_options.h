@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "mesamis/files/reading.h"
 #include "mesamis/label_files/read_labels.h"
 #include "mesamis/run/segment.h"
+#include "mesamis/volume_files/read_volume.h"
 
 namespace CLI {
 class App;
@@ -24,11 +24,16 @@ struct LabelArguments {
   std::vector<std::string> chosen;                   ///< --label, names or numbers; empty: all
   std::filesystem::path names;                       ///< --label-names, may be empty
   std::optional<double> margin;                      ///< --margin, mm
-  ReadLimits limits{};                               ///< of the label map and the probabilities
+  LabelOptions read{};                               ///< but for the scan, see read_like()
 
   /// Whether the user names a label map.
   bool given() const { return !file.empty() || !probabilities.empty(); }
 };
+
+/// How label maps and probabilities are read beside a scan, or without one, whose spacing is then
+/// theirs.
+/// @param scan  as it is asked for.
+LabelOptions read_like(const ReadOptions& scan, bool has_scan);
 
 /// Adds the options. `arguments` must outlive the parsing.
 void add_label_options(CLI::App& command, LabelArguments& arguments);

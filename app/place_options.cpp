@@ -98,7 +98,8 @@ TissueKind tissue_kind(const PlaceArguments& places) {
 
 ReadRequest read_request(const RequestArguments& arguments, const Settings& settings) {
   const auto& [places, labels, frame, scan] = arguments;
-  const LabelOptions how{places.limits, scan};
+  LabelOptions how = places.read;
+  how.scan = scan;
   ReadRequest read;
   read.object.crop = settings.crop;
   ObjectRequest& request = read.object;

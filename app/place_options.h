@@ -25,7 +25,7 @@ struct PlaceArguments {
   std::string tissue;              ///< --tissue, may be empty
   bool keep_surroundings = false;  ///< --keep-surroundings
   std::string padding;             ///< --padding, may be empty
-  ReadLimits limits{};             ///< of the label maps
+  LabelOptions read{};             ///< of the label maps, but for the scan
 
   /// Whether they say which object is meant, as labels do.
   bool choose() const { return !mask.empty() || !seeds.empty() || !tissue.empty(); }

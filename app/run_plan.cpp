@@ -30,14 +30,16 @@ struct Shares {
 
 /// Where the file is a map that read_grid() does not know, the scan's grid stands for it; without a
 /// scan the labels are read.
-VoxelGrid label_grid(const fs::path& path, const ReadLimits& limits, const VoxelGrid* scan) {
+VoxelGrid label_grid(const fs::path& path, const LabelOptions& how, const VoxelGrid* scan) {
   try {
     ReadOptions read;
-    read.limits = limits;
+    read.limits = how.limits;
+    read.spacing = how.spacing;
+    read.resample = how.resample;
     return read_any_grid(path, read);
   } catch (const InputError&) {
     if (!fs::exists(path)) throw;
-    return scan != nullptr ? *scan : read_label_map(path, {.limits = limits}).map;
+    return scan != nullptr ? *scan : read_label_map(path, how).map;
   }
 }
 
@@ -63,7 +65,7 @@ Shares shares_of(const ScanArguments& arguments, Settings settings, bool mesh,
   shares.samples = sizeof(float) * voxels_of(grid);
   shares.method = memory_needed(grid, settings);
   if (!labels.given()) return shares;
-  shares.labels = bytes_of_labels(labels, label_grid(label_path(labels), labels.limits, &grid));
+  shares.labels = bytes_of_labels(labels, label_grid(label_path(labels), labels.read, &grid));
   shares.method += kBytesOfFlow * voxels_of(grid);
   return shares;
 }
@@ -74,7 +76,7 @@ nlohmann::ordered_json run_plan(const ScanArguments& arguments, const Settings& 
                                 bool mesh) {
   const bool alone = arguments.input.empty();
   const LabelArguments& labels = arguments.labels;
-  const VoxelGrid grid = alone ? label_grid(label_path(labels), labels.limits, nullptr)
+  const VoxelGrid grid = alone ? label_grid(label_path(labels), labels.read, nullptr)
                                : read_any_grid(arguments.input, arguments.read);
   const Shares shares = alone ? Shares{0, bytes_of_labels(labels, grid),
                                        kBytesOfProgram + kBytesOfSmoothing * voxels_of(grid)}

@@ -134,10 +134,10 @@ void require_body_for(const SegmentOptions& options, const Settings& settings) {
   if (!options.body.material.empty()) require_grey_values(options.scan.places, "--material");
 }
 
-/// Whether anything is said of how a scan is read, or of which part.
+/// Whether anything is said of how a scan is read, or of which part, that labels alone have not.
 bool tells_of_scan(const ReadOptions& read, const Settings& settings) {
-  return !(settings.crop == CropRange{}) || read.spacing || read.raw || read.resample ||
-         read.volume || read.channel || !read.series.empty() || !read.modality.empty();
+  return !(settings.crop == CropRange{}) || read.raw || read.volume || read.channel ||
+         !read.series.empty() || !read.modality.empty();
 }
 
 /// What needs no scan to be refused.
@@ -152,8 +152,8 @@ void require_places(const SegmentOptions& options, const Settings& settings) {
   }
   if (!has_scan && options.scan.labels.given() && tells_of_scan(options.scan.read, settings)) {
     throw CLI::ValidationError("input",
-                               "expected a scan for --crop, --spacing, --series, --raw, --volume, "
-                               "--channel, --modality or --resample, found labels alone");
+                               "expected a scan for --crop, --series, --raw, --volume, --channel "
+                               "or --modality, found labels alone");
   }
   if (!options.out.meshes.empty()) require_grey_values(places, "--mesh");
 }

@@ -187,7 +187,8 @@ int run_segment(SegmentOptions options, const CommonOptions& common) {
   forget_warnings();
   ScanArguments& scan = options.scan;
   scan.report = options.out.wants_report();
-  scan.read.limits = scan.places.limits = scan.labels.limits = common.limits;
+  scan.read.limits = common.limits;
+  scan.places.read = scan.labels.read = read_like(scan.read, !scan.input.empty());
   const Settings settings = settings_of(options.settings);
   require_segment(options, settings);
   if (options.plan) return print_plan(options, settings);

@@ -240,6 +240,14 @@ TEST_F(SegmentLabels, AnAccuracyThatAnObjectMissesIsTold) {
   EXPECT_TRUE(std::filesystem::exists(folder / "a.vtp"));
 }
 
+/// Labels alone take a spacing of their own; beside a scan it is the scan's.
+TEST_F(SegmentLabels, TakeASpacingAlone) {
+  EXPECT_EQ(segment({"-o", folder / "a.ply"}).status, 0);
+  EXPECT_EQ(segment({"-o", folder / "b.ply", "--spacing", "2,2,6"}).status, 0);
+  const double once = check_surface(read_surface(folder / "a.ply")).volume;
+  EXPECT_NEAR(check_surface(read_surface(folder / "b.ply")).volume, 3 * once, 0.1 * once);
+}
+
 TEST_F(SegmentLabels, RefusesInOneLine) {
   EXPECT_FAILS(segment({"--mesh", folder / "a.vtu"}), 2, "--mesh: expected a scan");
   const auto expect_refused = [&](std::vector<std::string> more, int status, const char* what) {
@@ -251,7 +259,6 @@ TEST_F(SegmentLabels, RefusesInOneLine) {
   const std::string scan = folder / "balls.nrrd", out = folder / "x.stl";
   expect_refused({scan, "-o", out, "--label", "nose"}, 3, "nose");
   expect_refused({"-o", out, "--crop", "0:9,0:9,0:9"}, 2, "expected a scan for --crop");
-  expect_refused({"-o", out, "--spacing", "1,1,2"}, 2, "expected a scan for --crop, --spacing");
   expect_refused({"-o", out, "--modality", "MR"}, 2, "--modality");
   expect_refused({"-o", out, "--label", "1", scan}, 2, "the scan goes before --label");
   expect_refused({scan, "-o", out, "--mesh", folder / "x.vtu", "--preview"}, 2, "--preview");

@@ -43,7 +43,7 @@ void run_labels(std::string_view bytes) {
     require_labels(read_label_map(path, {.limits = fuzz_limits()}));
   });
   read_or_refuse(file, [](const fs::path& path) {
-    require_probabilities(read_probabilities({path}, fuzz_limits()));
+    require_probabilities(read_probabilities({path}, {.limits = fuzz_limits()}));
   });
 }
 

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/jpeg_bytes.h"
 #include "support/picture_bytes.h"
 #include "support/scan_bytes.h"
@@ -238,6 +240,51 @@ TEST(ReadLabels, OfAFolderOfSlices) {
   EXPECT_THAT(placed.warnings, ElementsAre(HasSubstr("its place is taken")));
   scan.size = {4, 3, 6};
   EXPECT_EQ(read_label_map(folder.path(), {{}, [&] { return scan; }}).map.origin, (Vec3{}));
+}
+
+/// A spacing that is given takes the place of what pictures lack, and of what files state.
+TEST(ReadLabels, TakeTheSpacingThatIsGiven) {
+  const TempFolder folder;
+  const std::string data = bytes_of_all(kLabels);
+  const LabelOptions how{.spacing = Vec3{3, 4, 5}};
+  std::vector<TiffPage> pages(5);
+  for (std::size_t k = 0; k < 5; ++k) pages[k].pixels = data.substr(24 * k, 24);
+  write_bytes(folder / "a.tif", tiff_bytes(pages));
+  write_bytes(folder / "a.nii", NiftiBytes{}.header() + data);
+  write_bytes(folder / "a.nrrd", nrrd_bytes("encoding: raw\nendian: little\n", data));
+  for (const char* name : {"a.tif", "a.nii", "a.nrrd"}) {
+    const LabelFile file = read_label_map(folder / name, how);
+    EXPECT_EQ(file.map.spacing, *how.spacing) << name;
+    EXPECT_THAT(file.warnings, testing::Each(testing::Not(HasSubstr("1 mm assumed")))) << name;
+  }
+  EXPECT_REFUSED(read_label_map(folder / "a.tif", {.spacing = Vec3{1, 0, 1}}),
+                 HasSubstr("spacing"));
+}
+
+/// Labels and probabilities of sheared grids, and masks of a folder, come onto an orthogonal one.
+TEST(ReadLabels, AreResampledFromShearedGrids) {
+  const TempFolder folder;
+  const std::string head =
+      "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 6 5 4\n"
+      "space: left-posterior-superior\nspace directions: (1,0,0) (0.4,1,0) (0,0,1)\n"
+      "encoding: raw\n\n";
+  std::string voxels;
+  for (int n = 0; n < 6 * 5 * 4; ++n) voxels += static_cast<char>(n % 6 < 3 ? 1 : 0);
+  write_bytes(folder / "masks/left.nrrd", head + voxels);
+  write_bytes(folder / "masks/right.nrrd", head + voxels);
+  const std::string file = folder / "masks/left.nrrd";
+  EXPECT_REFUSED(read_label_map(file), HasSubstr("--resample"));
+  const LabelOptions how{.resample = true};
+  const LabelFile one = read_label_map(file, how);
+  EXPECT_THAT(one.map.size, ElementsAre(8, 5, 4)) << "sheared by 1.6 voxels";
+  EXPECT_THAT(one.warnings, ElementsAre(HasSubstr("nearest")));
+  EXPECT_NO_THROW(require_valid(one.map));
+  const auto marked = std::count(one.map.layers[0].begin(), one.map.layers[0].end(), 1);
+  EXPECT_EQ(marked, 3 * 5 * 4) << "each row has shifted whole voxels";
+  EXPECT_THAT(read_label_map(folder / "masks", how).map.segments, SizeIs(2));
+  const ProbabilityFile probable = read_probabilities({file}, how);
+  EXPECT_EQ(probable.probabilities.size, one.map.size);
+  EXPECT_EQ(probable.probabilities.layers[0].size(), one.map.layers[0].size());
 }
 
 const std::string kColours("\0\0\0\xff\0\0\0\xff\0", 9);  // black, red, green

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "support/expect_near.h"
 #include "support/throws.h"
@@ -70,6 +72,35 @@ TEST(ShearedGrid, OrthogonalAxesStayAsTheyAre) {
   expect_near(plan.grid.spacing, {2, 1, 3});
   const std::vector<float> samples{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
   EXPECT_EQ(unsheared(plan, samples), samples);
+}
+
+/// The same of labels: no number comes out that did not go in, and none moves by a voxel.
+TEST(ShearedGrid, LabelsAreThoseOfTheNearestVoxels) {
+  const VoxelGrid old = grid_of_size({9, 8, 7});
+  const std::array<Vec3, 3> steps{Vec3{1, 0, 0}, Vec3{0.3, 1, 0}, Vec3{0, 0.4, 1.2}};
+  const ShearPlan plan = plan_unsheared("f", old, steps);
+  const auto label = [](const Vec3& p) { return static_cast<std::uint16_t>(p.x < 6 ? 3 : 700); };
+  std::vector<std::uint16_t> labels(old.voxel_count());
+  for (std::size_t n = 0; n < labels.size(); ++n) {
+    const auto v = old.voxel(n);
+    labels[n] = label(old.origin + v[0] * steps[0] + v[1] * steps[1] + v[2] * steps[2]);
+  }
+  const std::vector<std::uint16_t> out = unsheared(plan, labels);
+  std::size_t covered = 0;
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    const auto v = plan.grid.voxel(n);
+    const Vec3 s = plan.grid.spacing;
+    const Vec3 p = plan.grid.to_world({v[0] * s.x, v[1] * s.y, v[2] * s.z});
+    if (out[n] == 0) continue;
+    ++covered;
+    EXPECT_TRUE(out[n] == 3 || out[n] == 700) << out[n];
+    if (std::abs(p.x - 6) > 0.7) {
+      EXPECT_EQ(out[n], label(p)) << p.x;
+    }
+  }
+  EXPECT_NEAR(static_cast<double>(covered), static_cast<double>(labels.size()),
+              0.1 * static_cast<double>(labels.size()));
+  EXPECT_THAT(plan.label_note, HasSubstr("background"));
 }
 
 TEST(ShearedGrid, RefusesAxesInAPlaneAndGridsThatGrow) {

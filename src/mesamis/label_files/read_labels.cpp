@@ -7,6 +7,7 @@
 
 #include "mesamis/base/error.h"
 #include "mesamis/files/file_list.h"
+#include "mesamis/files/given_spacing.h"
 #include "mesamis/files/in_one_line.h"
 #include "mesamis/files/refuse.h"
 #include "mesamis/label_files/chunk_labels.h"
@@ -20,6 +21,7 @@
 #include "mesamis/volume_files/chunked_scan.h"
 #include "mesamis/volume_files/formats.h"
 #include "mesamis/volume_files/read_volume.h"
+#include "mesamis/volume_files/sheared_grid.h"
 #include "mesamis/volume_files/slice_stack.h"
 
 namespace mesamis {
@@ -34,10 +36,13 @@ struct Request {
   MemoryBudget& budget;
 
   Request at(const fs::path& other) const { return {other, how, budget}; }
-  Opening opening() const { return {budget, how.limits.allow_outside, Values::kMany}; }
+  Opening opening() const {
+    return {budget, how.limits.allow_outside, Values::kMany, how.spacing, how.resample};
+  }
   ReadOptions options() const {
     ReadOptions all;
     all.limits = how.limits;
+    all.spacing = how.spacing;
     return all;
   }
   /// Makes room for what samples become, of so many bytes each.
@@ -47,6 +52,14 @@ struct Request {
     budget.claim(values * scan.grid.voxel_count(), bytes, what);
   }
 };
+
+/// Puts the spacing that is given in the place of the file's.
+void apply_spacing(const LabelOptions& how, VoxelGrid& grid, std::vector<std::string>& warnings) {
+  if (!how.spacing) return;
+  const std::size_t assumed = drop_spacing_warnings(warnings);
+  const Vec3 stated = std::exchange(grid.spacing, *how.spacing);
+  if (assumed == 0 && stated != *how.spacing) warnings.push_back(spacing_is_replaced(stated));
+}
 
 LayerOrder order_of(const ScanFile& scan) {
   return {static_cast<std::size_t>(scan.inner), static_cast<std::size_t>(scan.outer)};
@@ -68,6 +81,18 @@ std::vector<Segment> named_segments(const Request& request, const ScanFile& scan
   }
 }
 
+/// Brings the layers of a sheared grid onto an orthogonal one.
+void unshear(const Request& request, const ScanFile& scan, LabelFile& file) {
+  if (!scan.sheared) return;
+  const ShearPlan plan = plan_unsheared(request.path, scan.grid, *scan.sheared);
+  for (std::vector<std::uint16_t>& layer : file.map.layers) {
+    request.budget.claim(plan.grid.voxel_count(), sizeof(std::uint16_t), "resampled labels");
+    layer = unsheared(plan, layer);
+  }
+  static_cast<VoxelGrid&>(file.map) = plan.grid;
+  file.warnings.push_back(plan.label_note);
+}
+
 LabelFile labels_of_array(const Request& request, const ScanFile& scan) {
   const fs::path& path = request.path;
   if (scan.format != "NRRD" && scan.outer > 1) {
@@ -78,6 +103,7 @@ LabelFile labels_of_array(const Request& request, const ScanFile& scan) {
   LabelBuilder builder(path, scan.grid, order_of(scan), request.budget);
   visit_samples(scan, [&](std::span<const double> samples) { builder.add(samples); });
   out.map = builder.finish(std::move(out.map), out.warnings);
+  unshear(request, scan, out);
   return out;
 }
 
@@ -186,7 +212,9 @@ LabelFile read_map(const Request& request);
 /// The grid of a header; none for pictures, which state no place.
 std::optional<VoxelGrid> stated_grid(const Request& request, const fs::path& file) {
   const auto scan = open_array(file, request.opening());
-  return scan ? std::optional<VoxelGrid>(scan->grid) : std::nullopt;
+  if (!scan) return std::nullopt;
+  return scan->sheared ? plan_unsheared(file, scan->grid, *scan->sheared).grid
+                       : static_cast<const VoxelGrid&>(scan->grid);
 }
 
 LabelFile read_folder(const Request& request) {
@@ -255,6 +283,18 @@ void take_names(std::vector<Segment>& segments, const std::vector<Segment>& name
   }
 }
 
+/// The same of probabilities.
+void unshear(const Request& request, const ScanFile& scan, ProbabilityFile& file) {
+  if (!scan.sheared) return;
+  const ShearPlan plan = plan_unsheared(request.path, scan.grid, *scan.sheared);
+  for (std::vector<float>& layer : file.probabilities.layers) {
+    request.budget.claim(plan.grid.voxel_count(), sizeof(float), "resampled probabilities");
+    layer = unsheared(plan, layer);
+  }
+  static_cast<VoxelGrid&>(file.probabilities) = plan.grid;
+  file.warnings.push_back(plan.note);
+}
+
 ProbabilityFile probabilities_of_file(const Request& request) {
   const fs::path& file = request.path;
   const auto scan = open_array(file, request.opening());
@@ -272,6 +312,7 @@ ProbabilityFile probabilities_of_file(const Request& request) {
   const std::vector<float> samples = read_samples(*scan, request.budget);
   request.claim(*scan, sizeof(float), "probabilities");
   out.probabilities.layers = probability_layers(file, scan->grid, order_of(*scan), samples);
+  unshear(request, *scan, out);
   out.probabilities.segments = numbered_segments(out.probabilities.layers.size());
   take_names(out.probabilities.segments, names, scan->format == "NRRD");
   return out;
@@ -290,17 +331,19 @@ fs::path file_of(const fs::path& path) {
 }
 
 /// The claims for one file are given back when it is read; what stays of it is claimed again.
-ProbabilityFile read_one(const fs::path& path, const ReadLimits& limits, MemoryBudget& budget) {
+ProbabilityFile read_one(const fs::path& path, const LabelOptions& how, MemoryBudget& budget) {
   return in_one_line(path, [&] {
     const ScopedFile scope(budget, path);
-    return probabilities_of_file({file_of(path), {.limits = limits}, budget});
+    ProbabilityFile file = probabilities_of_file({file_of(path), how, budget});
+    apply_spacing(how, file.probabilities, file.warnings);
+    return file;
   });
 }
 
 /// @param first  the file of the grid.
 void append_volume(ProbabilityFile& all, const fs::path& path, const fs::path& first,
-                   MemoryBudget& budget, const ReadLimits& limits) {
-  ProbabilityFile one = read_one(path, limits, budget);
+                   MemoryBudget& budget, const LabelOptions& how) {
+  ProbabilityFile one = read_one(path, how, budget);
   budget.claim(one.probabilities.layers.size() * one.probabilities.voxel_count(), sizeof(float),
                "probabilities");
   Probabilities& to = all.probabilities;
@@ -318,7 +361,12 @@ void append_volume(ProbabilityFile& all, const fs::path& path, const fs::path& f
 
 LabelFile read_label_map(const fs::path& path, const LabelOptions& options) {
   MemoryBudget budget(path, options.limits);
-  return in_one_line(path, [&] { return read_map({path, options, budget}); });
+  return in_one_line(path, [&] {
+    if (options.spacing) require_positive_spacing(path, *options.spacing);
+    LabelFile file = read_map({path, options, budget});
+    apply_spacing(options, file.map, file.warnings);
+    return file;
+  });
 }
 
 bool is_label_file(const fs::path& path, const ReadLimits& limits) {
@@ -344,12 +392,14 @@ bool is_mask_folder(const fs::path& path, const ReadLimits& limits) {
          !masks_in(path, budget).empty();
 }
 
-ProbabilityFile read_probabilities(const std::vector<fs::path>& paths, const ReadLimits& limits) {
+ProbabilityFile read_probabilities(const std::vector<fs::path>& paths,
+                                   const LabelOptions& options) {
   if (paths.empty()) throw InputError("probabilities: expected at least one file, found none");
-  MemoryBudget budget(paths[0], limits);
-  if (paths.size() == 1) return read_one(paths[0], limits, budget);
+  if (options.spacing) require_positive_spacing(paths[0], *options.spacing);
+  MemoryBudget budget(paths[0], options.limits);
+  if (paths.size() == 1) return read_one(paths[0], options, budget);
   ProbabilityFile all;
-  for (const fs::path& path : paths) append_volume(all, path, paths[0], budget, limits);
+  for (const fs::path& path : paths) append_volume(all, path, paths[0], budget, options);
   all.probabilities.segments = numbered_segments(paths.size());
   for (std::size_t n = 0; n < paths.size(); ++n) {
     all.probabilities.segments[n].name = object_name(paths[n]);

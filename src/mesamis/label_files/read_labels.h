@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct LabelOptions {
   /// Returns the grid of the scan that the labels belong to, with its frame of reference. Called at
   /// most once, for contours and for pictures, which state no place. May be empty.
   std::function<VoxelGrid()> scan{};
+  std::optional<Vec3> spacing{};  ///< mm, positive: replaces the file's, as ReadOptions::spacing
+  /// Take sheared grids of NIfTI, NRRD and MetaImage onto orthogonal ones: of labels the nearest,
+  /// of probabilities those in between.
+  bool resample = false;
 };
 
 /// Reads a label map: .nii .nii.gz .nrrd .nhdr .mha .mhd .tif .tiff .inv3, 3D Slicer's .seg.nrrd, a
@@ -90,14 +95,14 @@ struct ProbabilityFile {
 /// as read_label_map() says. Of one volume each, the names of the files without their extensions
 /// are the names. A fractional or binary DICOM segmentation gives its values divided by their
 /// maximum.
-/// @param paths   one file, or several volumes on one grid (to 1e-3 of a voxel).
-/// @param limits  as read_label_map(), for all files together.
+/// @param paths    one file, or several volumes on one grid (to 1e-3 of a voxel).
+/// @param options  as for read_label_map(), limits for all files together; without a scan.
 /// @return values of 0 to 1 (no unit); those outside by at most 1e-3, as smoothing leaves, are clamped.
 /// @throws InputError  one line that begins with a path, for other values, for grids that differ,
 ///                     and as read_label_map().
 ///
 /// O(voxels * objects). Memory: 4 bytes per voxel and object, twice for one file.
 ProbabilityFile read_probabilities(const std::vector<std::filesystem::path>& paths,
-                                   const ReadLimits& limits = {});
+                                   const LabelOptions& options = {});
 
 }  // namespace mesamis

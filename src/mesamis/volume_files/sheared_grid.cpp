@@ -99,6 +99,25 @@ class Between {
   const std::vector<float>& samples_;
 };
 
+/// The values of a function of the old grid's indices at the voxels of the new one.
+template <class Value, class Find>
+std::vector<Value> on_new_grid(const ShearPlan& plan, const Find& find) {
+  const VoxelGrid& grid = plan.grid;
+  std::vector<Value> out(grid.voxel_count());
+  parallel_for_each(static_cast<std::size_t>(grid.size[2]), [&](std::size_t k) {
+    Value* at = out.data() + grid.offset(0, 0, static_cast<Index>(k));
+    for (Index j = 0; j < grid.size[1]; ++j) {
+      for (Index i = 0; i < grid.size[0]; ++i, ++at) {
+        const Vec3 local{i * grid.spacing.x, j * grid.spacing.y,
+                         static_cast<double>(k) * grid.spacing.z};
+        const Vec3 p = plan.first + grid.direction * local;
+        *at = find({dot(plan.to_index[0], p), dot(plan.to_index[1], p), dot(plan.to_index[2], p)});
+      }
+    }
+  });
+  return out;
+}
+
 }  // namespace
 
 ShearPlan plan_unsheared(const std::filesystem::path& file, const VoxelGrid& old,
@@ -106,7 +125,7 @@ ShearPlan plan_unsheared(const std::filesystem::path& file, const VoxelGrid& old
   constexpr double kMostPerVoxel = 64;
   require_space(file, steps);
   const auto axes = axes_beside(steps);
-  ShearPlan plan{old, old.size, inverse_of(steps), {}, {}};
+  ShearPlan plan{old, old.size, inverse_of(steps), {}, {}, {}};
   double voxels = 1;
   for (std::size_t a = 0; a < 3; ++a) {
     const double spacing = dot(steps[a], axes[a]);
@@ -125,31 +144,35 @@ ShearPlan plan_unsheared(const std::filesystem::path& file, const VoxelGrid& old
   const double cosine = std::max({std::abs(dot(unit_or_zero(steps[0]), unit_or_zero(steps[1]))),
                                   std::abs(dot(unit_or_zero(steps[1]), unit_or_zero(steps[2]))),
                                   std::abs(dot(unit_or_zero(steps[2]), unit_or_zero(steps[0])))});
-  plan.note = message("the voxel axes are sheared (cosine ", cosine, "): interpolated onto ",
-                      plan.grid.size[0], " x ", plan.grid.size[1], " x ", plan.grid.size[2],
-                      " orthogonal voxels; what none covers has the least value");
+  const std::string sheared = message("the voxel axes are sheared (cosine ", cosine, "): ");
+  const std::string onto = message(" onto ", plan.grid.size[0], " x ", plan.grid.size[1], " x ",
+                                   plan.grid.size[2], " orthogonal voxels; what none covers ");
+  plan.note = sheared + "interpolated" + onto + "has the least value";
+  plan.label_note = sheared + "labels of the nearest voxels" + onto + "is background";
   return plan;
 }
 
 std::vector<float> unsheared(const ShearPlan& plan, const std::vector<float>& samples) {
-  const VoxelGrid& grid = plan.grid;
   const float beyond = *std::min_element(samples.begin(), samples.end());
   const Between between(plan.size, samples);
-  std::vector<float> out(grid.voxel_count());
-  parallel_for_each(static_cast<std::size_t>(grid.size[2]), [&](std::size_t k) {
-    float* at = out.data() + grid.offset(0, 0, static_cast<Index>(k));
-    for (Index j = 0; j < grid.size[1]; ++j) {
-      for (Index i = 0; i < grid.size[0]; ++i, ++at) {
-        const Vec3 local{i * grid.spacing.x, j * grid.spacing.y,
-                         static_cast<double>(k) * grid.spacing.z};
-        const Vec3 p = plan.first + grid.direction * local;
-        const Vec3 index{dot(plan.to_index[0], p), dot(plan.to_index[1], p),
-                         dot(plan.to_index[2], p)};
-        if (!between.at(index, *at)) *at = beyond;
-      }
-    }
+  return on_new_grid<float>(plan, [&](const Vec3& index) {
+    float value = beyond;
+    return between.at(index, value) ? value : beyond;
   });
-  return out;
+}
+
+std::vector<std::uint16_t> unsheared(const ShearPlan& plan,
+                                     const std::vector<std::uint16_t>& labels) {
+  return on_new_grid<std::uint16_t>(plan, [&](const Vec3& index) -> std::uint16_t {
+    std::size_t place = 0, step = 1;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double nearest = std::floor(index[static_cast<int>(a)] + 0.5);
+      if (!(nearest >= 0 && nearest < plan.size[a])) return 0;
+      place += static_cast<std::size_t>(nearest) * step;
+      step *= static_cast<std::size_t>(plan.size[a]);
+    }
+    return labels[place];
+  });
 }
 
 }  // namespace mesamis::detail::volume_files

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,7 +19,8 @@ struct ShearPlan {
   std::array<Index, 3> size{};     ///< voxels of what goes in
   std::array<Vec3, 3> to_index{};  ///< rows: from mm beside the first voxel to its indices
   Vec3 first{};                    ///< the new first voxel beside the old one, LPS, mm
-  std::string note;                ///< what was done, in words
+  std::string note;                ///< what was done to samples, in words
+  std::string label_note;          ///< and to labels
 };
 
 /// Plans an orthogonal grid that holds all voxels of a sheared one: its first axis is that of the
@@ -41,5 +43,13 @@ ShearPlan plan_unsheared(const std::filesystem::path& file, const VoxelGrid& old
 ///
 /// O(voxels of the new grid), in threads; the same bits for any number of them.
 std::vector<float> unsheared(const ShearPlan& plan, const std::vector<float>& samples);
+
+/// Takes labels from the nearest voxels of the sheared grid; what none covers has the label 0.
+/// @param labels  of the sheared grid.
+/// @throws nothing
+///
+/// O(voxels of the new grid), in threads.
+std::vector<std::uint16_t> unsheared(const ShearPlan& plan,
+                                     const std::vector<std::uint16_t>& labels);
 
 }  // namespace mesamis::detail::volume_files

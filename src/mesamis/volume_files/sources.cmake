@@ -10,6 +10,7 @@ set(ROOM_HEADERS
   read_volume.h
   rounding_record.h
   scan_file.h
+  sheared_grid.h
   slice_reader.h
   slice_stack.h
   write_volume.h)
