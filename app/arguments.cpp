@@ -79,4 +79,14 @@ std::string one_line(const std::string& text) {
   return as_one_line(std::string_view(text).substr(0, last + 1));
 }
 
+std::function<void(const std::string&)> noted(std::vector<std::string>& names,
+                                              const std::string& name) {
+  return [&names, name](const std::string&) { names.push_back(name); };
+}
+
+void require_beside(const std::vector<std::string>& given, bool has_master,
+                    const std::string& expected) {
+  if (!given.empty() && !has_master) refuse_usage(given.front(), "expected " + expected);
+}
+
 }  // namespace mesamis

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,17 @@ std::vector<int> parse_integers(const std::string& text, const std::string& opti
 /// given.
 [[noreturn]] void refuse_usage(const std::string& message);
 [[noreturn]] void refuse_usage(const std::string& option, const std::string& message);
+
+/// Notes that an option was given, for CLI::Option::each().
+std::function<void(const std::string&)> noted(std::vector<std::string>& names,
+                                              const std::string& name);
+
+/// Refuses options that were given without the one that they belong to.
+/// @param given     names of such options; may be empty.
+/// @param expected  "--body beside it, found none"
+/// @throws CLI::ValidationError  naming the first.
+void require_beside(const std::vector<std::string>& given, bool has_master,
+                    const std::string& expected);
 
 /// Runs a check of options and turns its InputError, which stands for a file, into an error of
 /// usage.

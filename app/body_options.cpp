@@ -30,12 +30,6 @@ MaterialOptions material_options(const BodyArguments& a) {
   return options;
 }
 
-/// Notes that an option was given.
-std::function<void(const std::string&)> noted(std::vector<std::string>& names,
-                                              const std::string& name) {
-  return [&names, name](const std::string&) { names.push_back(name); };
-}
-
 void add_element_options(CLI::App& c, BodyArguments& a) {
   const auto note = [&a](const char* name) { return noted(a.of_elements, name); };
   c.add_option("--surface-quality", a.surface_quality,
@@ -94,13 +88,6 @@ void add_material_options(CLI::App& c, BodyArguments& a) {
   c.add_option("--poisson", a.poisson, "Poisson ratio (default: the law's)")
       ->check(from_to(kPoissonRatios[0], kPoissonRatios[1]))
       ->each(note("--poisson"));
-}
-
-/// Refuses options without the one that they belong to.
-void require_beside(const std::vector<std::string>& given, bool has_master,
-                    const std::string& expected) {
-  if (given.empty() || has_master) return;
-  throw CLI::ValidationError(given.front(), "expected " + expected);
 }
 
 void require_masters(const BodyArguments& a) {

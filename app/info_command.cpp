@@ -236,7 +236,9 @@ void print_volumes(const InfoCommand& command) {
 
 int run_info(const InfoCommand& command) {
   const fs::path& input = command.input;
-  switch (command.read.raw ? FileKind::kVolume : kind_of(input)) {
+  const FileKind kind = command.read.raw ? FileKind::kVolume : kind_of(input);
+  if (kind != FileKind::kVolume) require_no_read_options(input, command.read);
+  switch (kind) {
     case FileKind::kSurface:
       print_surface(input, command.read.limits);
       break;

@@ -30,6 +30,7 @@ struct PictureCommand {
   fs::path input, output, outline;
   ReadOptions read;
   PictureOptions picture;
+  bool turned = false;  // --view was given
 };
 
 Clip parse_clip(const std::string& text) {
@@ -68,7 +69,7 @@ void draw_volume(const PictureCommand& command) {
   if (!command.picture.color.empty() || command.picture.edges) {
     throw InputError(command.input.string() + ": --color and --edges are for surfaces and meshes");
   }
-  if (command.picture.zoom != 1 || command.picture.focus) {
+  if (command.turned || command.picture.zoom != 1 || command.picture.focus) {
     throw InputError(command.input.string() +
                      ": --view, --zoom and --focus are for surfaces and meshes");
   }
@@ -120,6 +121,7 @@ int run_picture(const PictureCommand& command) {
   require_writable(command.output);
   require_distinct_files({command.output}, {command.input, command.outline});
   const FileKind kind = command.read.raw ? FileKind::kVolume : kind_of(command.input);
+  if (kind != FileKind::kVolume) require_no_read_options(command.input, command.read);
   if (kind != FileKind::kVolume && !command.outline.empty()) {
     throw InputError(command.input.string() + ": --outline is for slices of a volume");
   }
@@ -154,7 +156,8 @@ void add_picture_command(CLI::App& app, CommonOptions& common, Action& action) {
       ->required()
       ->check(CLI::Validator(check_png, "PNG"));
   command->add_option("--view", options->picture.view, "Direction of view (not for volumes)")
-      ->check(CLI::IsMember({"front", "back", "left", "right", "top", "bottom", "oblique"}));
+      ->check(CLI::IsMember({"front", "back", "left", "right", "top", "bottom", "oblique"}))
+      ->each([options](const std::string&) { options->turned = true; });
   command->add_option("--zoom", options->picture.zoom, "Magnification (not for volumes)")
       ->check(above_zero());
   command->add_option_function<std::string>(

@@ -87,6 +87,9 @@ void require_places(const PlaceArguments& places, const LabelArguments& labels,
   if (!labels.given() && !(labels.chosen.empty() && labels.names.empty())) {
     throw CLI::ValidationError("--label", "expected --labels beside it, found none");
   }
+  if (labels.margin && !labels.given() && places.mask.empty()) {
+    throw CLI::ValidationError("--margin", "expected --labels or --mask beside it, found neither");
+  }
   if (labels.given() && places.choose()) {
     refuse_pair("--labels", "--tissue, --mask and --seed");
   }

@@ -156,6 +156,16 @@ void add_read_options(CLI::App& command, ReadOptions& options) {
   add_modality_option(command, options);
 }
 
+void require_no_read_options(const std::filesystem::path& path, const ReadOptions& options) {
+  if (!options.spacing && !options.resample && !options.volume && !options.channel &&
+      options.series.empty() && options.modality.empty()) {
+    return;
+  }
+  throw InputError(path.string() +
+                   ": --series, --spacing, --resample, --volume, --channel and --modality are for "
+                   "volumes");
+}
+
 VolumeFile read_scan(const std::filesystem::path& path, const ReadOptions& options) {
   VolumeFile file = read_any_volume(path, options);
   if (const NotNumbers nan = fill_not_numbers(file.volume.samples); nan.voxels > 0) {

@@ -22,6 +22,10 @@ void add_modality_option(CLI::App& command, ReadOptions& options);
 /// --volume, --channel, --modality. `options` must outlive the parsing.
 void add_read_options(CLI::App& command, ReadOptions& options);
 
+/// Refuses options that say how a scan is read for what is none.
+/// @throws InputError  one line that begins with the path.
+void require_no_read_options(const std::filesystem::path& path, const ReadOptions& options);
+
 /// Reads a volume as read_volume() does, and scans in chunks too: Zarr and HDF5, whole.
 /// @throws InputError  one line that begins with the path.
 VolumeFile read_any_volume(const std::filesystem::path& path, const ReadOptions& options);

@@ -83,9 +83,23 @@ void require_objects_to_name(const SegmentOptions& options) {
   }
 }
 
-void require_outputs(const SegmentOptions& options) {
+/// Options that only change what others make.
+void require_masters(const SegmentOptions& options, const Settings& settings) {
+  const RunFiles& out = options.out;
+  require_beside(options.of_mesh, !out.meshes.empty(), "--mesh beside it, found none");
+  require_beside(options.of_surfaces, !out.surfaces.empty(), "--output beside it, found none");
+  std::vector<std::string> of_band;
+  for (const auto& setting : options.settings.overrides) {
+    if (setting.name == "band_threshold") of_band.push_back(setting.option);
+  }
+  require_beside(of_band, settings.surface == SurfaceKind::kBand || !out.band_meshes.empty(),
+                 "--surface band or --band-mesh beside it, found neither");
+}
+
+void require_outputs(const SegmentOptions& options, const Settings& settings) {
   require_some_output(options);
   require_objects_to_name(options);
+  require_masters(options, settings);
   require_utf8(options.out.name, "--name");
   for (const fs::path& path : options.out.surfaces) {
     require_output(path, written_surface_formats(), "--output");
@@ -242,7 +256,7 @@ void require_input_before_list(const ScanArguments& scan) {
 
 void require_segment(const SegmentOptions& options, const Settings& settings) {
   require_input_before_list(options.scan);
-  if (!options.plan) require_outputs(options);
+  if (!options.plan) require_outputs(options, settings);
   require_places(options, settings);
   require_settings_of_objects(options, settings);
   require_mesh_for(options, settings);

@@ -45,10 +45,12 @@ void add_mesh_options(CLI::App& c, const std::shared_ptr<SegmentOptions>& o) {
        },
        "Cells of --mesh: box, all (default); object, those with more than half of their volume "
        "inside the level set of u, whole")
-      ->check(CLI::IsMember({"box", "object"}));
+      ->check(CLI::IsMember({"box", "object"}))
+      ->each(noted(o->of_mesh, "--mesh-region"));
   c.add_option("--bins", o->out.mesh.bins,
                "Sets of cells of --mesh, by equal ranges of their native value (default 10)")
-      ->check(from_to(1, kMostBins));
+      ->check(from_to(1, kMostBins))
+      ->each(noted(o->of_mesh, "--bins"));
   c.add_option("--band-mesh", o->out.band_meshes, "The band's cells with v: .vtu");
 }
 
@@ -222,7 +224,8 @@ void add_segment_command(CLI::App& app, CommonOptions& common, Action& action) {
   add_page_options(*command, options->out.page);
   add_frame_option(*command, options->scan.frame);
   command->add_option("--name", options->out.name, "The object's name in the surfaces written")
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->each(noted(options->of_surfaces, "--name"));
   group("Which object");
   add_label_options(*command, options->scan.labels);
   add_place_options(*command, options->scan.places);

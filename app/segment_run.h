@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "body_options.h"
 #include "chosen_scan.h"
@@ -21,7 +23,9 @@ struct SegmentOptions {
   RunFiles out;  ///< but for bodies, frame and facts, which follow from the others
   SlabArguments slabs;
   std::optional<double> time_limit;  ///< s, from wall_seconds() 0
-  bool plan = false;                 ///< only tell what the run needs
+  /// The options given that mean nothing without --mesh, without --output.
+  std::vector<std::string> of_mesh, of_surfaces;
+  bool plan = false;  ///< only tell what the run needs
   nlohmann::ordered_json report_also = nlohmann::ordered_json::object();  ///< entries of the report
   std::filesystem::path report_reader_file;  ///< that out.facts.written writes; may be empty
 

@@ -40,6 +40,7 @@ struct StudyCommand {
   ReadOptions read;
   std::vector<int> subsample, region_subsample{1, 2, 4};
   std::optional<CropRange> region;
+  std::vector<std::string> of_region;  // options given that mean nothing without --region
   FrameRule frames = FrameRule::kAuto;
   Frame frame = Frame::kLps;
   SettingsArguments settings;
@@ -246,6 +247,7 @@ int run_experiments(Study& study, const std::vector<Experiment>& experiments) {
 }
 
 int run_study(const StudyCommand& command, const CommonOptions& common) {
+  require_beside(command.of_region, command.region.has_value(), "--region beside it, found none");
   if (command.subsample.empty() && !command.region) {
     throw CLI::ValidationError("study", "expected --subsample, --region or both, found neither");
   }
@@ -272,9 +274,11 @@ void add_study_options(CLI::App& c, const std::shared_ptr<StudyCommand>& o) {
       "I0:I1,J0:J1,K0:K1, voxels: runs on this part, with all voxels and with every second in "
       "the plane");
   c.add_option_function<std::string>(
-      "--region-subsample",
-      [o](const std::string& t) { o->region_subsample = parse_steps(t, "--region-subsample"); },
-      "S,S,...: of the latter, one for each, on every S-th slice (default 1,2,4)");
+       "--region-subsample",
+       [o](const std::string& t) { o->region_subsample = parse_steps(t, "--region-subsample"); },
+       "S,S,...: of the latter, one for each, on every S-th slice (default 1,2,4)")
+      ->type_name("S,S,...")
+      ->each(noted(o->of_region, "--region-subsample"));
   add_read_options(c, o->read);
   add_frames_option(c, o->frames);
   add_frame_option(c, o->frame);

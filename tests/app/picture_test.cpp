@@ -107,6 +107,17 @@ TEST(PictureCommand, RefusesPlainly) {
   }
   EXPECT_FAILS(run_program(folder, {"picture", surface, "-o", png, "--window", "3:9"}), 3,
                "--window is for slices");
+  for (const char* option : {"--spacing=1,1,1", "--modality=CT", "--volume=0", "--channel=0",
+                             "--series=1", "--resample"}) {
+    EXPECT_FAILS(run_program(folder, {"picture", surface, "-o", png, option}), 3, "for volumes");
+    EXPECT_FAILS(run_program(folder, {"info", surface, option}), 3, "for volumes");
+  }
+  write_bytes(folder / "v.nrrd",
+              "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n\nABCDEFGH");
+  for (const char* option : {"--view=front", "--view=oblique", "--zoom=2", "--focus=1,1,1"}) {
+    EXPECT_FAILS(run_program(folder, {"picture", folder / "v.nrrd", "-o", png, option}), 3,
+                 "are for surfaces and meshes");
+  }
   EXPECT_FAILS(run_program(folder, {"picture", folder / "none.vtu", "-o", png}), 3, "none.vtu");
   EXPECT_FALSE(std::filesystem::exists(png));
 }

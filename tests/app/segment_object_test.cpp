@@ -118,6 +118,7 @@ TEST_F(SegmentObject, RefusesInOneLineBeforeItReads) {
   EXPECT_FAILS(segment({"--box", "1:20,,", "--crop", "1:9,,"}), 2,
                "--box: expected it without --crop");
   EXPECT_FAILS(segment({"--remove", "body", "--keep-surroundings"}), 2, "--remove body: expected");
+  EXPECT_FAILS(segment({"--margin", "1"}), 2, "--margin: expected --labels or --mask beside it");
   EXPECT_FAILS(segment({"--labels", folder / "x.nrrd", "--tissue", "bone"}), 2,
                "--labels: expected it without");
   const std::vector<std::string> mesh{"--mesh", folder / "a.vtu"};
@@ -136,8 +137,8 @@ TEST_F(SegmentObject, RefusesInOneLineWhatDoesNotFitTheScan) {
   EXPECT_FAILS(segment({"--box", "500:600,,"}), 3, "box: expected at least 2 voxels");
   EXPECT_FAILS(segment({"--remove", "body"}), 3, "remove: expected a patient's body");
   EXPECT_FAILS(segment({"--tissue", "bone"}), 3, "Hounsfield");
-  EXPECT_FAILS(segment({"--mask", folder / "none.nrrd"}), 3, "none.nrrd");
   EXPECT_FAILS(segment({"--tissue", "6000:7000"}), 3, "found 6000:7000");
+  EXPECT_FAILS(segment({"--mask", folder / "none.nrrd"}), 3, "none.nrrd");
   EXPECT_EQ(folder.file_count(), 3) << "the scan, stdout and stderr";
 }
 

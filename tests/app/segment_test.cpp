@@ -344,6 +344,17 @@ TEST(SegmentCommand, RefusesInOneLineAndWritesNothing) {
                                                      {"--mesh-region", "object", "--min-volume",
                                                       "1e9", "--quiet", "--max-tets", "1000"})),
                3, "mesh region: expected cells with u above the level");
+  // Options that only change what another one makes are refused without it.
+  const auto beside = [&folder](const std::vector<std::string>& options) {
+    std::vector<std::string> words{"segment", folder / "ball.nrrd", "--report", folder / "r.json"};
+    words.insert(words.end(), options.begin(), options.end());
+    return run_program(folder, words);
+  };
+  EXPECT_FAILS(beside({"--bins", "3"}), 2, "--bins: expected --mesh beside it, found none");
+  EXPECT_FAILS(beside({"--mesh-region", "box"}), 2, "--mesh-region: expected --mesh beside it");
+  EXPECT_FAILS(beside({"--name", "hip"}), 2, "--name: expected --output beside it, found none");
+  EXPECT_FAILS(beside({"--band-threshold", "0.1"}), 2,
+               "--band-threshold: expected --surface band or --band-mesh beside it, found neither");
   EXPECT_FAILS(outputs("none/a.stl", "a.vtu"), 3, "there is no folder");
   for (const auto* option : {"--max-tets", "--adaptations", "--amis-iterations"}) {
     EXPECT_FAILS(run_program(folder, segment_arguments(folder, "a", {option, "300.5"})), 2,

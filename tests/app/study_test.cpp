@@ -218,6 +218,8 @@ TEST(StudyCommand, RefusesPlainlyBeforeItBegins) {
   const TempFolder folder;
   make_ball(folder);
   EXPECT_FAILS(study(folder, {}), 2, "--subsample, --region");
+  EXPECT_FAILS(study(folder, {"--subsample", "1", "--region-subsample", "1"}), 2,
+               "--region-subsample: expected --region beside it");
   for (const auto* steps : {"0", "1,-2", "2,2", "1.5", "1,", "many"}) {
     EXPECT_FAILS(study(folder, {"--subsample", steps}), 2, "--subsample");
   }
