@@ -238,18 +238,23 @@ std::vector<std::string> format_names() {
 void add_choice_options(CLI::App& c, BidsArguments& a) {
   BidsFilter& filter = a.filter;
   c.add_option("--participant-label,--participant_label", filter.participants,
-               "Participants, with or without sub- (default: all)");
+               "Participants, with or without sub- (default: all)")
+      ->type_name("LABEL");
   c.add_option("--session-label,--session_label", filter.sessions,
-               "Sessions, with or without ses- (default: all)");
-  c.add_option("--datatype", filter.datatypes, "Folders of images (default: anat ct)");
+               "Sessions, with or without ses- (default: all)")
+      ->type_name("LABEL");
+  c.add_option("--datatype", filter.datatypes, "Folders of images (default: anat ct)")
+      ->type_name("NAME");
   c.add_option("--suffix", filter.suffixes,
-               "Kinds of images: T1w, ct (default: all but label maps)");
+               "Kinds of images: T1w, ct (default: all but label maps)")
+      ->type_name("NAME");
   c.add_flag("--skip-existing", a.skip_existing,
              "Skip images with a report of the same program, settings and image");
 }
 
 void add_made_options(CLI::App& c, BidsArguments& a) {
-  c.add_option("--desc", a.desc, "desc- of the output files (default: the suffix of the image)");
+  c.add_option("--desc", a.desc, "desc- of the output files (default: the suffix of the image)")
+      ->type_name("NAME");
   c.add_option("--format", a.formats, "Surfaces: stl ply obj vtp 3mf amf glb (default: stl)")
       ->check(CLI::IsMember(format_names()));
   c.add_flag("--tetrahedra", a.tetrahedra, "Also the adapted mesh: _mesh.vtu");
@@ -257,7 +262,8 @@ void add_made_options(CLI::App& c, BidsArguments& a) {
   c.add_flag("--error", a.segment.out.error,
              "Write the expected error at each point, in vtp and ply");
   PlaceArguments& places = a.segment.scan.places;
-  c.add_option("--tissue", places.tissue, "Tissue to segment, as for segment");
+  c.add_option("--tissue", places.tissue, "Tissue to segment, as for segment")
+      ->type_name("NAME|LO:HI");
   c.add_flag("--keep-surroundings", places.keep_surroundings,
              "Keep table and head rest, which are removed where a patient is found in CT");
   add_padding_option(c, places);

@@ -75,6 +75,7 @@ void add_material_options(CLI::App& c, BodyArguments& a) {
       ->type_name("A,B")
       ->each(note("--calibration"));
   c.add_option("--ash", a.ash, "Conversion of QCT to ash density: schileo-2008 (default), equal")
+      ->type_name("NAME")
       ->each(note("--ash"));
   c.add_option("--material-gap", a.gap, "Range of moduli in one material, MPa (default 50)")
       ->check(zero_or_more())

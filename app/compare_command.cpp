@@ -12,6 +12,7 @@
 #include "frames_option.h"
 #include "log.h"
 #include "mesamis/files/atomic_file.h"
+#include "mesamis/object/places.h"
 #include "mesamis/report/comparison_json.h"
 #include "mesamis/report/json_file.h"
 #include "mesamis/report/report.h"
@@ -31,21 +32,6 @@ struct CompareCommand {
   FrameRule frames = FrameRule::kAuto;
   std::optional<Box> part;
 };
-
-/// "X0,Y0,Z0,X1,Y1,Z1"
-Box box_of(const std::string& text) {
-  const std::vector<double> n = parse_numbers(text, 6, "--box");
-  const Box box{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
-  for (int a = 0; a < 3; ++a) {
-    if (!(box.lo[a] < box.hi[a])) {
-      throw CLI::ValidationError("--box",
-                                 "expected X0,Y0,Z0,X1,Y1,Z1 with each first below its "
-                                 "second, found " +
-                                     text);
-    }
-  }
-  return box;
-}
 
 /// The distances between the surfaces, and between their objects of one name.
 struct Measured {
@@ -147,9 +133,16 @@ void add_compare_command(CLI::App& app, CommonOptions& common, Action& action) {
   command->add_option("--colored", options->colored,
                       "The surface with the distance of each vertex (array distance): .vtp");
   add_frames_option(*command, options->frames);
-  command->add_option_function<std::string>(
-      "--box", [options](const std::string& text) { options->part = box_of(text); },
-      "Measure from points inside this box alone: X0,Y0,Z0,X1,Y1,Z1, mm in the reference's frame");
+  command
+      ->add_option_function<std::string>(
+          "--box",
+          [options](const std::string& text) {
+            options->part = parsed("--box", [&] { return parse_box(text); });
+          },
+          "X0:X1,Y0:Y1,Z0:Z1, mm in the reference's frame: measure from points inside this box "
+          "alone; "
+          "ends are optional")
+      ->type_name("RANGES");
   command->callback([options, &common, &action] {
     action = [options, &common] { return run_compare(*options, common.limits); };
   });

@@ -209,7 +209,8 @@ void add_decimate_command(CLI::App& app, CommonOptions& common, Action& action) 
   sub->add_option("--keep-largest", command->keep_largest,
                   "Islands of each object to keep (default 0: all)");
   sub->add_flag("--fill-cavities", command->fill_cavities, "Fill every cavity");
-  sub->add_option("--name", command->name, "Name of the output's surface, or of the whole");
+  sub->add_option("--name", command->name, "Name of the output's surface, or of the whole")
+      ->type_name("NAME");
   sub->add_option("--report", command->report, "Report: .json");
   sub->callback([command, &common, &action] {
     action = [command, &common] { return run_decimate(*command, common); };

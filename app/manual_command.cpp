@@ -61,6 +61,7 @@ void add_manual_command(CLI::App& app, CommonOptions&, Action& action) {
   command->add_option("--bash", options->bash, "Completion for bash, to be sourced");
   command->add_option("--zsh", options->zsh, "Completion for zsh: _mesamis in a folder of fpath");
   command->add_option("--date", options->date, "YYYY-MM-DD: at the foot of the pages")
+      ->type_name("YYYY-MM-DD")
       ->check(CLI::Validator(check_date, ""));
   command->callback([options, &app, &action] {
     action = [options, &app] { return write_manual(app, *options); };

@@ -154,26 +154,28 @@ void add_degrade_options(CLI::App& sub, DegradeOptions& degrade) {
 
 void add_grid_options(CLI::App& sub, const std::shared_ptr<PhantomCommand>& command) {
   sub.add_option_function<std::string>(
-      "--size",
-      [command](const std::string& text) {
-        const std::vector<int> n = parse_integers(text, 3, "--size");
-        for (std::size_t a = 0; a < 3; ++a) {
-          if (n[a] < kPhantomSizeMin) {
-            throw CLI::ValidationError("--size", "expected at least " +
-                                                     std::to_string(kPhantomSizeMin) +
-                                                     " voxels, found '" + text + "'");
-          }
-          command->size[a] = n[a];
-        }
-      },
-      "Voxels NX,NY,NZ (default: see --list)");
+         "--size",
+         [command](const std::string& text) {
+           const std::vector<int> n = parse_integers(text, 3, "--size");
+           for (std::size_t a = 0; a < 3; ++a) {
+             if (n[a] < kPhantomSizeMin) {
+               throw CLI::ValidationError("--size", "expected at least " +
+                                                        std::to_string(kPhantomSizeMin) +
+                                                        " voxels, found '" + text + "'");
+             }
+             command->size[a] = n[a];
+           }
+         },
+         "Voxels NX,NY,NZ (default: see --list)")
+      ->type_name("NX,NY,NZ");
   sub.add_option_function<std::string>(
-      "--spacing",
-      [command](const std::string& text) {
-        const std::vector<double> s = parse_numbers(text, 3, "--spacing");
-        command->spacing = {s[0], s[1], s[2]};
-      },
-      "Of the voxels X,Y,Z, mm (default 1,1,1)");
+         "--spacing",
+         [command](const std::string& text) {
+           const std::vector<double> s = parse_numbers(text, 3, "--spacing");
+           command->spacing = {s[0], s[1], s[2]};
+         },
+         "Of the voxels X,Y,Z, mm (default 1,1,1)")
+      ->type_name("X,Y,Z");
   sub.add_option("--samples", command->samples, "Points per voxel and direction at the surface")
       ->check(from_to(1, 16))
       ->capture_default_str();

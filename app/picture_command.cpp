@@ -160,31 +160,44 @@ void add_picture_command(CLI::App& app, CommonOptions& common, Action& action) {
       ->each([options](const std::string&) { options->turned = true; });
   command->add_option("--zoom", options->picture.zoom, "Magnification (not for volumes)")
       ->check(above_zero());
-  command->add_option_function<std::string>(
-      "--focus",
-      [options](const std::string& text) {
-        const auto p = parse_numbers(text, 3, "--focus");
-        options->picture.focus = Vec3{p[0], p[1], p[2]};
-      },
-      "X,Y,Z: centre of the picture, mm (default: the object's centre)");
+  command
+      ->add_option_function<std::string>(
+          "--focus",
+          [options](const std::string& text) {
+            const auto p = parse_numbers(text, 3, "--focus");
+            options->picture.focus = Vec3{p[0], p[1], p[2]};
+          },
+          "X,Y,Z: centre of the picture, mm (default: the object's centre)")
+      ->type_name("X,Y,Z");
   command->add_flag("--edges", options->picture.edges, "Draw the edges of triangles or cells");
-  command->add_option_function<std::string>(
-      "--clip", [options](const std::string& text) { options->picture.clip = parse_clip(text); },
-      "AXIS,MM: cut the object open there; of a volume, the slice (default: the middle along z)");
-  command->add_option("--color", options->picture.color,
-                      "Array to colour by, of a mesh, a .vtp or a .ply");
-  command->add_option_function<std::string>(
-      "--size",
-      [options](const std::string& text) {
-        const auto size = parse_integers(text, 2, "--size");
-        options->picture.pixels = {size[0], size[1]};
-      },
-      "WIDTH,HEIGHT in pixels (default 1000,800)");
-  command->add_option_function<std::string>(
-      "--window",
-      [options](const std::string& text) { options->picture.window = parse_window(text); },
-      "LOW:HIGH: native values that are black and white in a volume's slice (default: nearly all "
-      "samples, without padding)");
+  command
+      ->add_option_function<std::string>(
+          "--clip",
+          [options](const std::string& text) { options->picture.clip = parse_clip(text); },
+          "AXIS,MM: cut the object open there; of a volume, the slice (default: the middle along "
+          "z)")
+      ->type_name("AXIS,MM");
+  command
+      ->add_option("--color", options->picture.color,
+                   "Array to colour by, of a mesh, a .vtp or a .ply")
+      ->type_name("NAME");
+  command
+      ->add_option_function<std::string>(
+          "--size",
+          [options](const std::string& text) {
+            const auto size = parse_integers(text, 2, "--size");
+            options->picture.pixels = {size[0], size[1]};
+          },
+          "WIDTH,HEIGHT in pixels (default 1000,800)")
+      ->type_name("WIDTH,HEIGHT");
+  command
+      ->add_option_function<std::string>(
+          "--window",
+          [options](const std::string& text) { options->picture.window = parse_window(text); },
+          "LOW:HIGH: native values that are black and white in a volume's slice (default: nearly "
+          "all "
+          "samples, without padding)")
+      ->type_name("LOW:HIGH");
   command->add_option("--outline", options->outline, "Surface to draw over a volume's slice");
   add_read_options(*command, options->read);
   command->callback([options, &common, &action] {

@@ -228,11 +228,12 @@ void add_print_options(CLI::App& sub, const std::shared_ptr<SliceCommand>& comma
   SliceSettings& settings = command->settings;  // lives as long as `command`
   auto add = [&sub, command](const NumberOption& option, const char* help, auto set) {
     sub.add_option_function<std::string>(
-        option.name,
-        [command, option, set](const std::string& text) {
-          set(command->settings, number_in(option, text));
-        },
-        help);
+           option.name,
+           [command, option, set](const std::string& text) {
+             set(command->settings, number_in(option, text));
+           },
+           help)
+        ->type_name(option.whole ? "N" : "X");
   };
   add({"--layer", kLayerMin, kNozzle, " mm (the nozzle)"}, "Height of a layer, mm (default 0.3)",
       [](SliceSettings& s, double value) { s.layer = value; });
@@ -242,8 +243,9 @@ void add_print_options(CLI::App& sub, const std::shared_ptr<SliceCommand>& comma
       [](SliceSettings& s, double value) { s.perimeters = static_cast<int>(value); });
   sub.add_flag("--support", settings.support, "Support what hangs over");
   sub.add_option_function<std::string>(
-      "--bed", [command](const std::string& text) { command->settings.bed = bed_of(text); },
-      "Width, depth[, height] of the print at most, mm (default 250,210,210)");
+         "--bed", [command](const std::string& text) { command->settings.bed = bed_of(text); },
+         "Width, depth[, height] of the print at most, mm (default 250,210,210)")
+      ->type_name("X,Y[,Z]");
 }
 
 }  // namespace

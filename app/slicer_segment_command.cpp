@@ -207,20 +207,26 @@ int print_description() {
 
 void add_object_options(CLI::App& c, SlicerArguments& a) {
   ScanArguments& scan = a.segment.scan;
-  c.add_option("--tissue", a.tissue, "Tissue, as of segment; bright: all that is bright");
+  c.add_option("--tissue", a.tissue, "Tissue, as of segment; bright: all that is bright")
+      ->type_name("NAME");
   c.add_option("--modality", a.modality,
                "Modality of the scan, which Slicer's temporary files do not state")
       ->check(CLI::IsMember(modality_words()));
-  c.add_option("--values", a.values, "LO:HI, native units, instead of a tissue");
+  c.add_option("--values", a.values, "LO:HI, native units, instead of a tissue")
+      ->type_name("LO:HI");
   c.add_option("--labels", scan.labels.file, "Label map whose labels choose the objects");
-  c.add_option("--label", a.labels, "Numbers or names of labels, commas between");
+  c.add_option("--label", a.labels, "Numbers or names of labels, commas between")
+      ->type_name("NAMES");
   c.add_option("--mask", scan.places.mask, "Label map: only what lies near a marked voxel");
-  c.add_option("--margin", a.margin, "How far labels may be wrong, or around the mask, mm");
+  c.add_option("--margin", a.margin, "How far labels may be wrong, or around the mask, mm")
+      ->type_name("MM");
   c.add_option("--seed", scan.places.seeds, "X,Y,Z, mm, LPS: the island with this point; several")
+      ->type_name("X,Y,Z")
       ->allow_extra_args(false);
   c.add_option("--region", a.region,
                "X,Y,Z,RX,RY,RZ, mm, LPS: centre and half sizes of a part; "
-               "nine numbers more turn it");
+               "nine numbers more turn it")
+      ->type_name("NUMBERS");
   c.add_flag("--keep_surroundings", scan.places.keep_surroundings, "Leave table and head rest");
 }
 
@@ -234,7 +240,8 @@ void add_file_options(CLI::App& c, SlicerArguments& a) {
   c.add_option("--report", a.segment.out.report, "Report: .json");
   c.add_option("--returnparameterfile", a.results, "Figures of the run, name = value");
   c.add_flag("--error", a.segment.out.error, "Write the error expected at each point, mm");
-  c.add_option("--time_limit", a.time_limit, "Seconds after which no further mesh is begun");
+  c.add_option("--time_limit", a.time_limit, "Seconds after which no further mesh is begun")
+      ->type_name("S");
 }
 
 }  // namespace

@@ -267,12 +267,14 @@ void add_study_options(CLI::App& c, const std::shared_ptr<StudyCommand>& o) {
   c.add_option("-o,--output", o->folder, "Folder of all that is written; made if need be")
       ->required();
   c.add_option_function<std::string>(
-      "--subsample", [o](const std::string& t) { o->subsample = parse_steps(t, "--subsample"); },
-      "S,S,...: a run for each, on every S-th slice of the scan");
+       "--subsample", [o](const std::string& t) { o->subsample = parse_steps(t, "--subsample"); },
+       "S,S,...: a run for each, on every S-th slice of the scan")
+      ->type_name("S,S,...");
   c.add_option_function<std::string>(
-      "--region", [o](const std::string& t) { o->region = parse_crop(t, "--region"); },
-      "I0:I1,J0:J1,K0:K1, voxels: runs on this part, with all voxels and with every second in "
-      "the plane");
+       "--region", [o](const std::string& t) { o->region = parse_crop(t, "--region"); },
+       "I0:I1,J0:J1,K0:K1, voxels: runs on this part, with all voxels and with every second in "
+       "the plane")
+      ->type_name("RANGES");
   c.add_option_function<std::string>(
        "--region-subsample",
        [o](const std::string& t) { o->region_subsample = parse_steps(t, "--region-subsample"); },

@@ -60,6 +60,9 @@ TEST(CompareCommand, MeasuresInsideABoxAlone) {
   EXPECT_EQ(report["surface_to_reference"]["vertices"], 4);
   EXPECT_NEAR(report["surface_to_reference"]["by_area"]["max"], 0.25, 1e-12);
   EXPECT_EQ(report["box"], nlohmann::json({-1, -1, -1, 5, 5, 5}));
+  EXPECT_EQ(compare("-1:5,:5,-1:").status, 0);
+  EXPECT_EQ(nlohmann::json::parse(read_bytes(folder / "r.json"))["surface_to_reference"],
+            report["surface_to_reference"]);
   EXPECT_FAILS(compare("0,0,0,0,1,1"), 2, "--box");
   EXPECT_FAILS(compare("20,20,20,21,21,21"), 3, "inside the box");
 }

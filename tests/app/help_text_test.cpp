@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <CLI/CLI.hpp>
+#include <regex>
 #include <sstream>
 
 #include "command_guide.h"
@@ -78,6 +79,27 @@ TEST(HelpText, OfAllHasEveryOptionUnderAHeading) {
                             "Image", "Functional", "Mesh", "Surface"}) {
     EXPECT_THAT(segment, HasSubstr(std::string("\n") + group + ":\n"));
   }
+}
+
+/// A value that is called FILE is one: what is said of it names a file or folder, or its endings.
+TEST(HelpText, CallsFilesAloneFiles) {
+  static const std::regex file(
+      R"((Folder|File|Surface|Label map|Scan|Volume|Mesh|Page|Report|Histogram|Settings|Metric|)"
+      R"(Names and colours|Completion|Body|Figures of the run|volume of probabilities|surface|)"
+      R"(mesh|cells with v|result as voxels|What was found|G-code|Picture))");
+  Program program;
+  for (const CLI::App* command : shown_commands(program.app)) {
+    for (const OptionFacts& option : option_facts(*command)) {
+      if (option.positional) continue;
+      const std::string name = command->get_name() + " " + option.names.back();
+      EXPECT_EQ(option.value.find("TEXT"), std::string::npos) << name << ": of what form?";
+      if (!option.file) continue;
+      EXPECT_TRUE(std::regex_search(option.help, file)) << name << ": " << option.help;
+    }
+  }
+  const std::string slice = help_text(program.command("slice"), HelpExtent::kAll);
+  EXPECT_THAT(slice, HasSubstr("--layer X "));
+  EXPECT_THAT(help_text(program.command("compare"), HelpExtent::kAll), HasSubstr("--box RANGES"));
 }
 
 TEST(HelpText, FitsATerminal) {

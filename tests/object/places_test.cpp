@@ -62,7 +62,11 @@ TEST(ParseBox, KeepsOpenEndsOpen) {
   EXPECT_EQ(box.hi.x, 10);
   EXPECT_TRUE(std::isinf(box.lo.y) && std::isinf(box.hi.y) && std::isinf(box.lo.z));
   EXPECT_EQ(box.hi.z, 2.5);
-  for (const auto* text : {"", "1:2", "2:1,,", "1:2,3:4,5:6,7:8", "a:b,,"}) {
+  const Box corners = parse_box("-5,1,2,10,3,2.5");
+  EXPECT_EQ(corners.lo, (Vec3{-5, 1, 2}));
+  EXPECT_EQ(corners.hi, (Vec3{10, 3, 2.5}));
+  for (const auto* text :
+       {"", "1:2", "2:1,,", "1:2,3:4,5:6,7:8", "a:b,,", "1,2,3", "1,2,3,4,5,3", "1,2,3,4,5,6,7"}) {
     EXPECT_REFUSED(parse_box(text), HasSubstr("box: expected X0:X1,Y0:Y1,Z0:Z1"));
   }
 }

@@ -56,6 +56,20 @@ std::optional<std::array<double, 2>> part_of_box(std::string_view text) {
   return std::array{*low, *high};
 }
 
+/// "X0,Y0,Z0,X1,Y1,Z1", split; nothing for anything else.
+std::optional<Box> box_of_corners(const std::vector<std::string_view>& parts) {
+  if (parts.size() != 6) return std::nullopt;
+  Box box;
+  for (int a = 0; a < 3; ++a) {
+    const auto n = static_cast<std::size_t>(a);
+    const auto low = number(parts[n]), high = number(parts[n + 3]);
+    if (!low || !high || !(*low < *high)) return std::nullopt;
+    box.lo[a] = *low;
+    box.hi[a] = *high;
+  }
+  return box;
+}
+
 /// The box of two corners that may have changed places.
 Box sorted(const Vec3& a, const Vec3& b) {
   Box box;
@@ -134,6 +148,7 @@ std::array<Index, 3> voxel_at(const VoxelGrid& grid, const Vec3& world) {
 
 Box parse_box(std::string_view text) {
   const auto parts = split(text, ',');
+  if (const auto corners = box_of_corners(parts)) return *corners;
   Box box;
   bool fits = parts.size() == 3;
   for (int a = 0; fits && a < 3; ++a) {
@@ -144,8 +159,10 @@ Box parse_box(std::string_view text) {
     box.hi[a] = (*part)[1];
   }
   if (fits) return box;
-  throw InputError("box: expected X0:X1,Y0:Y1,Z0:Z1 in mm, each end below the other or left out, " +
-                   std::string("found ") + quoted(text));
+  throw InputError(
+      "box: expected X0:X1,Y0:Y1,Z0:Z1 in mm, each end below the other or left out, "
+      "or X0,Y0,Z0,X1,Y1,Z1, found " +
+      quoted(text));
 }
 
 CropRange box_to_range(const VoxelGrid& grid, std::string_view text, Frame frame) {

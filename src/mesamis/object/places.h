@@ -24,12 +24,13 @@ Vec3 parse_point(std::string_view text, Frame frame);
 ///                     message says where the scan is.
 std::array<Index, 3> voxel_at(const VoxelGrid& grid, const Vec3& world);
 
-/// Reads a box "X0:X1,Y0:Y1,Z0:Z1", of which ends and parts may be left out, see box_to_range().
+/// Reads a box "X0:X1,Y0:Y1,Z0:Z1", of which ends and parts may be left out, see box_to_range(), or
+/// "X0,Y0,Z0,X1,Y1,Z1", the lower corner and the upper one.
 /// @return mm, in the frame in which it is written; infinite where an end is left out.
 /// @throws InputError  if the text is anything else, or an end is not below the other.
 Box parse_box(std::string_view text);
 
-/// Finds the voxels in a box "X0:X1,Y0:Y1,Z0:Z1" of the world.
+/// Finds the voxels in a box of the world, written as parse_box() reads it.
 ///
 /// An end that is left out is open, and so is a part without a colon and numbers: "10:60,,:-250".
 /// Where the grid's axes are those of the world, the range holds the voxels whose centres lie in
