@@ -15,8 +15,10 @@
 #include "arguments.h"
 #include "deliver.h"
 #include "log.h"
+#include "mesamis/base/error.h"
 #include "mesamis/run/segment_in_slabs.h"
 #include "mesamis/shape_files/surface_files.h"
+#include "mesamis/volume_files/rounding_record.h"
 #include "outputs.h"
 #include "progress.h"
 #include "scan.h"
@@ -163,10 +165,25 @@ LabelSlabRequest label_request(const SegmentOptions& run) {
   return request;
 }
 
+/// What single precision takes from samples shows in the slice in the middle, before the run; that
+/// slice alone may be of one value.
+void warn_of_rounding(const SegmentOptions& run, const FileSlices& source) {
+  const RoundingRecord rounded;
+  source.read(source.grid().size[2] / 2, 1);
+  std::vector<std::string> warnings;
+  try {
+    rounded.warn(run.scan.input, warnings);
+  } catch (const InputError& error) {
+    warnings.emplace_back(error.what());
+  }
+  for (const std::string& warning : warnings) log_warning(warning);
+}
+
 /// Opens the scan of a run, and logs the reader's warnings.
 std::unique_ptr<FileSlices> open_slices_of(const SegmentOptions& run) {
   std::unique_ptr<FileSlices> source = open_any_slices(run.scan.input, run.scan.read);
   for (const std::string& warning : source->head().warnings) log_warning(warning);
+  warn_of_rounding(run, *source);
   return source;
 }
 

@@ -329,6 +329,31 @@ TEST(SlabsOfSegment, LabelsRefuseWhatNeedsMoreThanTheirSlices) {
   EXPECT_FALSE(has_scratch(folder));
 }
 
+TEST(SlabsOfSegment, WhatSinglePrecisionTakesIsTold) {
+  const TempFolder folder;
+  std::string bytes;
+  for (int k = 0; k < 40; ++k) {
+    for (int j = 0; j < 16; ++j) {
+      for (int i = 0; i < 16; ++i) {
+        const double r = std::hypot(i - 7.5, j - 7.5, k - 19.5);
+        const double sample = 1e9 + (r < 6 ? 4000 : 0) + (i * 7 + j * 3 + k) % 50;
+        bytes.append(reinterpret_cast<const char*>(&sample), sizeof(sample));
+      }
+    }
+  }
+  write_bytes(folder / "scan.nrrd",
+              "NRRD0004\ntype: double\ndimension: 3\nsizes: 16 16 40\nencoding: raw\n"
+              "endian: little\nspace: left-posterior-superior\n"
+              "space directions: (1,0,0) (0,1,0) (0,0,1)\n\n" +
+                  bytes);
+  const std::vector<std::string> words{"segment",        folder / "scan.nrrd", "-o",
+                                       folder / "a.stl", "--max-tets",         "1000"};
+  std::vector<std::string> in_slabs = words;
+  in_slabs.insert(in_slabs.end(), {"--slabs", "2"});
+  EXPECT_THAT(run_program(folder, words).err, HasSubstr("rounds to steps of 64"));
+  EXPECT_THAT(run_program(folder, in_slabs).err, HasSubstr("rounds to steps of 64"));
+}
+
 TEST(SlabsOfSegment, WhatNeedsAllOfAScanIsRefused) {
   const TempFolder folder;
   write_scan(folder);

@@ -23,9 +23,9 @@ class FileSlices : public SliceSource {
 /// text, raw files whose layout is given, .tif and .tiff page by page, whatever their compression,
 /// and a directory of slices as .tif, .png or .bmp. DICOM cannot be read so.
 ///
-/// Grid, samples and warnings have the bits of read_volume(), also with options.spacing. Reading
-/// slices opens the files that hold them and reads these bytes alone; it is refused where they are
-/// no longer in the state in which they were opened here.
+/// Grid, samples and warnings, but for those of samples, have the bits of read_volume(), also with
+/// options.spacing. Reading slices opens the files that hold them and reads these bytes alone; it
+/// is refused where they are no longer in the state in which they were opened here.
 ///
 /// @param path     file or directory, as for read_volume().
 /// @param options  as for read_volume(); options.limits holds for each reading on its own, and
