@@ -242,8 +242,8 @@ TEST_F(SegmentLabels, AnAccuracyThatAnObjectMissesIsTold) {
 
 /// Labels alone take a spacing of their own; beside a scan it is the scan's.
 TEST_F(SegmentLabels, TakeASpacingAlone) {
-  EXPECT_EQ(segment({"-o", folder / "a.ply"}).status, 0);
-  EXPECT_EQ(segment({"-o", folder / "b.ply", "--spacing", "2,2,6"}).status, 0);
+  EXPECT_EQ(segment({"--label", "1", "-o", folder / "a.ply"}).status, 0);
+  EXPECT_EQ(segment({"--label", "1", "-o", folder / "b.ply", "--spacing", "2,2,6"}).status, 0);
   const double once = check_surface(read_surface(folder / "a.ply")).volume;
   EXPECT_NEAR(check_surface(read_surface(folder / "b.ply")).volume, 3 * once, 0.1 * once);
 }
