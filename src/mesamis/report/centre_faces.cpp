@@ -31,7 +31,7 @@ double six_volumes(const std::vector<Vec3>& points, std::span<const Triangle> tr
 bool move_centre_faces(std::vector<Vec3>& voxels, std::span<const Triangle> triangles, double hair,
                        double by) {
   const double outward = six_volumes(voxels, triangles) < 0 ? -1 : 1;
-  std::vector<std::array<std::int8_t, 3>> seen;  // along each axis: 1 faces forward, 2 backward
+  std::vector<std::array<std::uint8_t, 3>> seen;  // along each axis: 1 faces forward, 2 backward
   for (const Triangle& t : triangles) {
     const std::array<Vec3, 3> c{voxels[t[0]], voxels[t[1]], voxels[t[2]]};
     for (int axis = 0; axis < 3; ++axis) {
@@ -41,7 +41,7 @@ bool move_centre_faces(std::vector<Vec3>& voxels, std::span<const Triangle> tria
       seen.resize(voxels.size());
       for (const Index p : t) {
         seen[static_cast<std::size_t>(p)][static_cast<std::size_t>(axis)] |=
-            static_cast<std::int8_t>(normal[axis] > 0 ? 1 : 2);
+            static_cast<std::uint8_t>(normal[axis] > 0 ? 1 : 2);
       }
     }
   }
