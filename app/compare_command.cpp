@@ -140,8 +140,7 @@ void add_compare_command(CLI::App& app, CommonOptions& common, Action& action) {
             options->part = parsed("--box", [&] { return parse_box(text); });
           },
           "X0:X1,Y0:Y1,Z0:Z1, mm in the reference's frame: measure from points inside this box "
-          "alone; "
-          "ends are optional")
+          "alone; ends are optional")
       ->type_name("RANGES");
   command->callback([options, &common, &action] {
     action = [options, &common] { return run_compare(*options, common.limits); };

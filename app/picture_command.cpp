@@ -195,8 +195,7 @@ void add_picture_command(CLI::App& app, CommonOptions& common, Action& action) {
           "--window",
           [options](const std::string& text) { options->picture.window = parse_window(text); },
           "LOW:HIGH: native values that are black and white in a volume's slice (default: nearly "
-          "all "
-          "samples, without padding)")
+          "all samples, without padding)")
       ->type_name("LOW:HIGH");
   command->add_option("--outline", options->outline, "Surface to draw over a volume's slice");
   add_read_options(*command, options->read);

@@ -26,6 +26,17 @@ inline TriMesh small_bowl() {
   return bowl;
 }
 
+/// Of each triangle, unit length or 0; none may be removed.
+inline std::vector<Vec3> normals_of(const EditableSurface& surface,
+                                    const std::vector<Vec3>& points) {
+  std::vector<Vec3> normals;
+  for (Index t = 0; t < surface.count(); ++t) {
+    const Triangle k = surface.triangle(t);
+    normals.push_back(unit_normal({points[k[0]], points[k[1]], points[k[2]]}));
+  }
+  return normals;
+}
+
 /// A surface, its half-edges, and each collapse that keeps it a closed 2-manifold.
 class Collapses {
  public:

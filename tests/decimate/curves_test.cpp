@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "decimate/collapses.h"
 #include "mesamis/decimate/collapse_intersections.h"
 #include "mesamis/surface/self_intersections.h"
 #include "support/label_grids.h"
@@ -150,15 +151,6 @@ std::vector<Bend> bends_of(const Blobs& blobs, const EditableSurface& surface,
   std::sort(bends.begin(), bends.end(),
             [](const Bend& a, const Bend& b) { return a.key() < b.key(); });
   return bends;
-}
-
-std::vector<Vec3> normals_of(const EditableSurface& surface, const std::vector<Vec3>& points) {
-  std::vector<Vec3> normals;
-  for (Index t = 0; t < surface.count(); ++t) {
-    const Triangle k = surface.triangle(t);
-    normals.push_back(unit_normal({points[k[0]], points[k[1]], points[k[2]]}));
-  }
-  return normals;
 }
 
 /// The creases between each two interfaces.

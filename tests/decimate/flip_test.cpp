@@ -13,15 +13,6 @@
 namespace mesamis {
 namespace {
 
-std::vector<Vec3> normals_of(const EditableSurface& surface, const std::vector<Vec3>& points) {
-  std::vector<Vec3> normals;
-  for (Index t = 0; t < surface.count(); ++t) {
-    const Triangle k = surface.triangle(t);
-    normals.push_back(unit_normal({points[k[0]], points[k[1]], points[k[2]]}));
-  }
-  return normals;
-}
-
 /// Of all edges: length times one less the cosine of the bend.
 double bends_of(const EditableSurface& surface, const std::vector<Vec3>& points) {
   const std::vector<Vec3> normals = normals_of(surface, points);

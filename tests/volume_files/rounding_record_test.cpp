@@ -48,6 +48,26 @@ std::vector<std::string> warnings_of(const std::string& type,
   return read_nrrd_of(type, bytes_of_numbers<Number>(number)).warnings;
 }
 
+/// Nobody looks at samples that cannot be rounded.
+TEST(RoundingRecord, WholeNumbersThatSinglePrecisionHoldsAreExact) {
+  int exact = 0;
+  for (const double slope : {1.0, -1.0, 2.0, 0.5, 16.0, 255.0, 256.0, 1000.0}) {
+    for (const double intercept : {0.0, -1024.0, 0.25, 65536.0, 16711680.0, 1e9}) {
+      if (may_be_rounded<std::int16_t>(slope, intercept)) continue;
+      ++exact;
+      for (int stored = -32768; stored <= 65535; ++stored) {
+        const double value = slope * stored + intercept;
+        ASSERT_EQ(static_cast<double>(static_cast<float>(value)), value);
+      }
+    }
+  }
+  EXPECT_GT(exact, 10);
+  EXPECT_FALSE(may_be_rounded<float>(1, 0));
+  EXPECT_TRUE(may_be_rounded<float>(2, 0));
+  EXPECT_TRUE(may_be_rounded<double>(1, 0));
+  EXPECT_TRUE(may_be_rounded<std::uint16_t>(1, 1e9));
+}
+
 /// Whole numbers and those in double precision far from 0 lose their steps.
 TEST(RoundingRecord, StepsThatSinglePrecisionLosesAreTold) {
   const auto told = ElementsAre(AllOf(HasSubstr("to steps of 64"), HasSubstr("subtract")));

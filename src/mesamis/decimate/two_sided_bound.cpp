@@ -2,6 +2,7 @@
 #include "mesamis/decimate/two_sided_bound.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -105,7 +106,7 @@ std::vector<Index> TwoSidedBound::originals_of(Index triangle) const {
 bool TwoSidedBound::allows(const EditableSurface& surface, const std::vector<Vec3>& points,
                            const Collapse& collapse) {
   if (!ends_are_near(points, collapse)) return false;
-  start();
+  start(collapse.faces);
   gather(collapse);
   see_after(collapse);
   const Bounds lifted = bounds_after(collapse.height, {collapse.faces, collapse.gone()});
@@ -116,29 +117,23 @@ bool TwoSidedBound::allows(const EditableSurface& surface, const std::vector<Vec
 }
 
 bool TwoSidedBound::allows(const EditableSurface& surface, const Flip& flip) {
-  start();
+  start(flip.faces);
   for (const Index t : flip.faces) gather(t, t);
   for (const Corners& t : flip.after) after_.emplace_back(t);
   const Bounds lifted = bounds_after(flip.height, {flip.faces});
   if (lift(lifted, flip.faces)) return true;
-  around_number_.assign(flip.faces.begin(), flip.faces.end());
-  for (const Index t : flip.faces) {
-    for (const Index p : surface.triangle(t)) {
-      surface.for_each_leaving(p, [this](Index h) { add_once(around_number_, h / 3); });
-    }
-  }
-  for (const Index t : around_number_) around_.push_back(&triangles_[t]);
   if (!old_are_near({surface, triangles_}, flip.faces)) return false;
   next_.assign(flip.faces.size(), {lifted.to_originals, 0});
   return lifted.to_originals <= tolerance_ || new_are_near(flip.faces);
 }
 
-void TwoSidedBound::start() {
+/// @param faces  that change.
+void TwoSidedBound::start(std::span<const Index> faces) {
   ++collapse_count_;
   affected_.clear();
   after_.clear();
   around_.clear();
-  around_number_.clear();
+  around_number_.assign(faces.begin(), faces.end());
   uses_.clear();
   next_.clear();
 }
@@ -239,21 +234,29 @@ bool TwoSidedBound::lift(const Bounds& bounds, std::span<const Index> faces) {
   return true;
 }
 
-/// The triangles after a collapse, and those at the ends of what changes; once for a collapse.
+/// The triangles that come, and those at the ends of what changes; once for a change.
 void TwoSidedBound::look_around(const WalkedSurface& on) {
   if (!around_.empty()) return;
   const EditableSurface& surface = on.surface;
-  const Collapse& collapse = *on.collapse;
-  around_number_ = collapse.faces;
+  const Collapse* const collapse = on.collapse;
   const auto see = [&](Index p) {
     surface.for_each_leaving(p, [&](Index h) {
       const Index t = h / 3;
-      if (t != collapse.beside[0] && t != collapse.beside[1]) add_once(around_number_, t);
+      const bool goes =
+          collapse != nullptr && (t == collapse->beside[0] || t == collapse->beside[1]);
+      if (!goes) add_once(around_number_, t);
     });
   };
-  for (const Index h : collapse.outer) see(surface.from(h));
-  see(surface.to(collapse.outer.back()));
-  if (!collapse.moves) see(collapse.kept);
+  if (collapse != nullptr) {
+    for (const Index h : collapse->outer) see(surface.from(h));
+    see(surface.to(collapse->outer.back()));
+    if (!collapse->moves) see(collapse->kept);
+  } else {
+    const std::array flipped{around_number_[0], around_number_[1]};
+    for (const Index t : flipped) {
+      for (const Index p : surface.triangle(t)) see(p);
+    }
+  }
   for (const Index t : around_number_) around_.push_back(&triangles_[t]);
 }
 

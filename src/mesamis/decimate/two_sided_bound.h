@@ -62,7 +62,7 @@ class TwoSidedBound {
     double distance;  ///< from the original to the surface, mm
   };
 
-  void start();
+  void start(std::span<const Index> faces);
   void gather(Index triangle, Index guess);
   void gather(const Collapse& collapse);
   void see_after(const Collapse& collapse);

@@ -53,14 +53,6 @@ struct Request {
   }
 };
 
-/// Puts the spacing that is given in the place of the file's.
-void apply_spacing(const LabelOptions& how, VoxelGrid& grid, std::vector<std::string>& warnings) {
-  if (!how.spacing) return;
-  const std::size_t assumed = drop_spacing_warnings(warnings);
-  const Vec3 stated = std::exchange(grid.spacing, *how.spacing);
-  if (assumed == 0 && stated != *how.spacing) warnings.push_back(spacing_is_replaced(stated));
-}
-
 LayerOrder order_of(const ScanFile& scan) {
   return {static_cast<std::size_t>(scan.inner), static_cast<std::size_t>(scan.outer)};
 }
@@ -82,15 +74,19 @@ std::vector<Segment> named_segments(const Request& request, const ScanFile& scan
 }
 
 /// Brings the layers of a sheared grid onto an orthogonal one.
-void unshear(const Request& request, const ScanFile& scan, LabelFile& file) {
+/// @param map   of labels, or probabilities.
+/// @param note  of the plan, for these.
+template <class Map>
+void unshear(const Request& request, const ScanFile& scan, Map& map, std::string ShearPlan::*note,
+             std::vector<std::string>& warnings) {
   if (!scan.sheared) return;
   const ShearPlan plan = plan_unsheared(request.path, scan.grid, *scan.sheared);
-  for (std::vector<std::uint16_t>& layer : file.map.layers) {
-    request.budget.claim(plan.grid.voxel_count(), sizeof(std::uint16_t), "resampled labels");
+  for (auto& layer : map.layers) {
+    request.budget.claim(plan.grid.voxel_count(), sizeof layer[0], "a resampled layer");
     layer = unsheared(plan, layer);
   }
-  static_cast<VoxelGrid&>(file.map) = plan.grid;
-  file.warnings.push_back(plan.label_note);
+  static_cast<VoxelGrid&>(map) = plan.grid;
+  warnings.push_back(plan.*note);
 }
 
 LabelFile labels_of_array(const Request& request, const ScanFile& scan) {
@@ -103,7 +99,7 @@ LabelFile labels_of_array(const Request& request, const ScanFile& scan) {
   LabelBuilder builder(path, scan.grid, order_of(scan), request.budget);
   visit_samples(scan, [&](std::span<const double> samples) { builder.add(samples); });
   out.map = builder.finish(std::move(out.map), out.warnings);
-  unshear(request, scan, out);
+  unshear(request, scan, out.map, &ShearPlan::label_note, out.warnings);
   return out;
 }
 
@@ -283,18 +279,6 @@ void take_names(std::vector<Segment>& segments, const std::vector<Segment>& name
   }
 }
 
-/// The same of probabilities.
-void unshear(const Request& request, const ScanFile& scan, ProbabilityFile& file) {
-  if (!scan.sheared) return;
-  const ShearPlan plan = plan_unsheared(request.path, scan.grid, *scan.sheared);
-  for (std::vector<float>& layer : file.probabilities.layers) {
-    request.budget.claim(plan.grid.voxel_count(), sizeof(float), "resampled probabilities");
-    layer = unsheared(plan, layer);
-  }
-  static_cast<VoxelGrid&>(file.probabilities) = plan.grid;
-  file.warnings.push_back(plan.note);
-}
-
 ProbabilityFile probabilities_of_file(const Request& request) {
   const fs::path& file = request.path;
   const auto scan = open_array(file, request.opening());
@@ -312,7 +296,7 @@ ProbabilityFile probabilities_of_file(const Request& request) {
   const std::vector<float> samples = read_samples(*scan, request.budget);
   request.claim(*scan, sizeof(float), "probabilities");
   out.probabilities.layers = probability_layers(file, scan->grid, order_of(*scan), samples);
-  unshear(request, *scan, out);
+  unshear(request, *scan, out.probabilities, &ShearPlan::note, out.warnings);
   out.probabilities.segments = numbered_segments(out.probabilities.layers.size());
   take_names(out.probabilities.segments, names, scan->format == "NRRD");
   return out;
@@ -335,7 +319,7 @@ ProbabilityFile read_one(const fs::path& path, const LabelOptions& how, MemoryBu
   return in_one_line(path, [&] {
     const ScopedFile scope(budget, path);
     ProbabilityFile file = probabilities_of_file({file_of(path), how, budget});
-    apply_spacing(how, file.probabilities, file.warnings);
+    apply_spacing(how.spacing, file.probabilities, file.warnings);
     return file;
   });
 }
@@ -364,7 +348,7 @@ LabelFile read_label_map(const fs::path& path, const LabelOptions& options) {
   return in_one_line(path, [&] {
     if (options.spacing) require_positive_spacing(path, *options.spacing);
     LabelFile file = read_map({path, options, budget});
-    apply_spacing(options, file.map, file.warnings);
+    apply_spacing(options.spacing, file.map, file.warnings);
     return file;
   });
 }

@@ -134,10 +134,10 @@ void add_several_objects(Html& tiles, const json& report) {
                                : std::to_string(closed) + " of " + std::to_string(objects)));
 }
 
-/// The numbers of the method.
 /// Whether the surface encloses a range of values, so that a level says nothing.
 bool is_range(const json& report) { return entry(report, "/object/image") == "within range"; }
 
+/// The numbers of the method.
 Html method_tiles(const json& report) {
   Html tiles = of_class("dl", "tiles method");
   const std::string native = native_unit(report);

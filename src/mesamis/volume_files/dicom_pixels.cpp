@@ -115,13 +115,16 @@ struct WordReader {
 
 void append_words(Bytes words, const WordReader& reader, const FrameRescale& rescale,
                   std::vector<float>& out) {
+  const double slope = rescale.slope, intercept = rescale.intercept;
+  const bool rounds = reader.bits <= 16 ? may_be_rounded<std::uint16_t>(slope, intercept)
+                                        : may_be_rounded<std::uint32_t>(slope, intercept);
   RoundedSamples rounded;
   for (std::size_t at = 0; at < words.size(); at += static_cast<std::size_t>(reader.bytes)) {
-    const double value = rescale.slope * reader.value(&words[at]) + rescale.intercept;
+    const double value = slope * reader.value(&words[at]) + intercept;
     out.push_back(static_cast<float>(value));
-    rounded.note(value, out.back());
+    if (rounds) rounded.note(value, out.back());
   }
-  note_rounded(rounded);
+  if (rounds) note_rounded(rounded);
 }
 
 void require_bits(const DicomFile& file, const DicomPixels& p, PixelUse use) {

@@ -114,13 +114,19 @@ OpenSlices open_picture_slices(const std::filesystem::path& file, const Opening&
 void require_options(const std::filesystem::path& path, const ReadOptions& options);
 /// What a reader of headers is given.
 Opening opening_of(const ReadOptions& options, MemoryBudget& budget);
-/// The spacing and the modality that were asked for, if any were, take the place of the file's: the
-/// spacing with a warning, and also of what was assumed.
+/// The spacing, see apply_spacing(), and the modality that were asked for, if any were, take the
+/// place of the file's.
 void apply_options(const ReadOptions& options, VolumeFile& file);
 
 /// Removes the warnings of a spacing that was assumed or is doubtful, for one that is known better.
 /// @return how many told that it was assumed.
 std::size_t drop_spacing_warnings(std::vector<std::string>& warnings);
+
+/// The spacing that was asked for, if any, takes the place of a grid's, with a warning, and also of
+/// what was assumed.
+/// @param warnings  of the grid's file.
+void apply_spacing(const std::optional<Vec3>& spacing, VoxelGrid& grid,
+                   std::vector<std::string>& warnings);
 
 /// Tells the caller of the grid whose samples are about to be read, with the spacing and the
 /// modality that were asked for.

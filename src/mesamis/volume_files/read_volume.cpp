@@ -304,14 +304,17 @@ std::size_t drop_spacing_warnings(std::vector<std::string>& warnings) {
   });
 }
 
+void apply_spacing(const std::optional<Vec3>& spacing, VoxelGrid& grid,
+                   std::vector<std::string>& warnings) {
+  if (!spacing) return;
+  const std::size_t assumed = drop_spacing_warnings(warnings);
+  const Vec3 stated = std::exchange(grid.spacing, *spacing);
+  if (assumed == 0 && stated != *spacing) warnings.push_back(spacing_is_replaced(stated));
+}
+
 void apply_options(const ReadOptions& options, VolumeFile& file) {
   if (!options.modality.empty()) file.volume.modality = options.modality;
-  if (!options.spacing) return;
-  const std::size_t assumed = drop_spacing_warnings(file.warnings);
-  const Vec3 stated = std::exchange(file.volume.spacing, *options.spacing);
-  if (assumed == 0 && stated != *options.spacing) {
-    file.warnings.push_back(spacing_is_replaced(stated));
-  }
+  apply_spacing(options.spacing, file.volume, file.warnings);
 }
 
 bool is_picture(const fs::path& file) { return picture_format_of(file) != nullptr; }

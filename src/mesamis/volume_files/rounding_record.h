@@ -40,6 +40,16 @@ template <class Stored>
 constexpr bool kMayBeRounded = std::same_as<Stored, double> ||
                                (std::integral<Stored> && sizeof(Stored) >= sizeof(float));
 
+/// The same of native values, slope * stored + intercept: whole ones of up to 24 bits have not.
+template <class Stored>
+bool may_be_rounded(double slope, double intercept) noexcept {
+  if (slope == 1 && intercept == 0) return kMayBeRounded<Stored>;
+  if (!std::integral<Stored> || kMayBeRounded<Stored>) return true;
+  constexpr double kMost = 1 << 24, kMostStored = 1 << 8 * sizeof(std::uint16_t);
+  const bool whole = slope == std::floor(slope) && intercept == std::floor(intercept);
+  return !whole || std::abs(slope) * kMostStored + std::abs(intercept) > kMost;
+}
+
 /// Notes what is rounded on this thread while it lives. Of records within one another the innermost
 /// counts.
 class RoundingRecord {

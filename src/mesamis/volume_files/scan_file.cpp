@@ -45,7 +45,8 @@ Exact exact_value(Stored stored, const SampleSource& source, bool plain) {
 template <class Stored, class Number>
 void convert(std::span<const unsigned char> bytes, const SampleSource& source, Number* out) {
   const bool plain = source.slope == 1 && source.intercept == 0;
-  const bool rounds = std::same_as<Number, float> && (!plain || kMayBeRounded<Stored>);
+  const bool rounds =
+      std::same_as<Number, float> && may_be_rounded<Stored>(source.slope, source.intercept);
   RoundedSamples rounded;
   std::array<unsigned char, sizeof(Stored)> raw;
   for (std::size_t n = 0; n * sizeof(Stored) < bytes.size(); ++n) {
