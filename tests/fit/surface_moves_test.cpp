@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <random>
+
 #include "mesamis/surface/self_intersections.h"
 #include "support/ball_volume.h"
 #include "support/level_set.h"
@@ -101,6 +105,72 @@ TEST(SurfaceMoves, AreTakenBackWhereTrianglesWouldMeet) {
   EXPECT_EQ(shifted.points[far].x, surface.points[far].x + 0.1) << "what meets nothing stays moved";
 }
 
+/// A triangle with its tip at a point, and two others: one in its way, across the axes, and one
+/// beyond that.
+struct Tip {
+  TriMesh surface{{kStart,
+                   kStart + Vec3{1, 1, 0.5},
+                   kStart + Vec3{1, 1, 1.5},
+                   {10, 3, 3},
+                   {3, 10, 3},
+                   {3, 3, 10},
+                   {1, -1, 0},
+                   {-1, 1, 0},
+                   {0, 0, 1}},
+                  {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}}};
+  static constexpr Vec3 kStart{11, 11, 11};
+
+  std::vector<Vec3> shifts(const Vec3& way) const {
+    std::vector<Vec3> shifts(surface.points.size());
+    std::fill_n(shifts.begin(), 3, way);
+    return shifts;
+  }
+  TriMesh at(const Vec3& way) const {
+    TriMesh there = surface;
+    for (std::size_t p = 0; p < 3; ++p) there.points[p] += way;
+    return there;
+  }
+};
+
+/// So near to a triangle that what single precision takes, or adds, decides whether the tip is in it.
+TEST(SurfaceMoves, GoAsFarAsNothingMeetsHereAndInAFile) {
+  const SplineImage scan = image();
+  const FollowSpace space(scan, 1);
+  const Tip tip;
+  const auto meets_here = [&](const Vec3& way) {
+    return !find_self_intersections(tip.at(way)).empty();
+  };
+  const auto meets_in_file = [&](const Vec3& way) {
+    TriMesh filed = tip.at(way);
+    for (Vec3& p : filed.points) p = space.as_in_a_file(p);
+    return !find_self_intersections(filed).empty();
+  };
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> uniform(-2e-7, 2e-7);
+  std::array<std::array<int, 2>, 2> seen{};  // meets here, meets in a file
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vec3 at{16.0 / 3 + uniform(generator), 16.0 / 3 + uniform(generator),
+                  16.0 / 3 + uniform(generator)};
+    const Vec3 there = at - Tip::kStart;
+    ++seen[meets_here(there) ? 1 : 0][meets_in_file(there) ? 1 : 0];
+    for (const Vec3& way : {there, 2 * there}) {  // the second leads there once it is halved
+      for (const Unfolded where : {Unfolded::kHereAndInFile, Unfolded::kInFile}) {
+        Vec3 farthest = way;
+        const auto meets = [&] {
+          return meets_in_file(farthest) ||
+                 (where == Unfolded::kHereAndInFile && meets_here(farthest));
+        };
+        while (meets()) farthest = 0.5 * farthest;
+        EXPECT_EQ(moved_without_folds(space, tip.surface, tip.shifts(way), where).points,
+                  tip.at(farthest).points);
+      }
+    }
+  }
+  for (const auto& of_here : seen) {
+    for (const int count : of_here) EXPECT_GT(count, 5) << "of each kind";
+  }
+}
+
 TEST(SurfaceMover, MovesAgainFromWhereverItIsTold) {
   const TriMesh surface = ball(11);
   const SplineImage scan = image();
@@ -138,6 +208,29 @@ TEST(SurfaceMover, TellsWhatMetBefore) {
   EXPECT_FALSE(mover.move(three.points, shifts));
   EXPECT_EQ(mover.pairs_left(), (std::vector<TrianglePair>{{0, 1}}));
   EXPECT_TRUE(mover.move(mover.points(), std::vector<Vec3>(three.points.size())));
+  EXPECT_EQ(mover.pairs_left(), (std::vector<TrianglePair>{{0, 1}}));
+}
+
+/// A row of triangles, each of which meets the one behind it once its own move is taken back, before
+/// one that stays: more than there are trials. Two that met before are moved apart.
+TEST(SurfaceMover, TellsWhatMetBeforeWhereAllMovesAreTakenBack) {
+  constexpr int kRow = 100;
+  TriMesh surface{{{5, 5, 9}, {9, 5, 9}, {5, 9, 9}, {6, 6, 8}, {6, 6, 10}, {9, 9, 9}},
+                  {{0, 1, 2}, {3, 4, 5}}};
+  for (int i = 0; i < kRow; ++i) {
+    const double x = 0.3 * i;
+    const auto first = static_cast<Index>(surface.points.size());
+    surface.points.insert(surface.points.end(), {{x, 5, 5}, {x + 0.25, 5.5, 5}, {x, 6, 5}});
+    surface.triangles.push_back({first, first + 1, first + 2});
+  }
+  std::vector<Vec3> shifts(surface.points.size());
+  std::fill_n(shifts.begin() + 3, 3, Vec3{20, 20, 0});
+  std::fill(shifts.begin() + 6, shifts.end() - 3, Vec3{0.2, 0, 0});
+  const SplineImage scan = image();
+  const FollowSpace space(scan, 1);
+  SurfaceMover mover(space, surface, Unfolded::kInFile);
+  EXPECT_FALSE(mover.move(surface.points, shifts));
+  EXPECT_EQ(mover.points(), surface.points);
   EXPECT_EQ(mover.pairs_left(), (std::vector<TrianglePair>{{0, 1}}));
 }
 
