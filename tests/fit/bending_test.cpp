@@ -3,23 +3,26 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "mesamis/base/parallel.h"
+#include "support/shapes.h"
 #include "support/solids.h"
 
 namespace mesamis {
 namespace {
 
 struct Case {
-  TriMesh surface = ball_surface(5, 20);
+  TriMesh surface;
   Neighbors neighbors{surface};
   std::vector<char> on_curve = std::vector<char>(surface.points.size(), 0);
   Umbrella umbrella{neighbors, links_along_curves(neighbors, on_curve)};
   Springs springs;
 
-  Case() {
+  explicit Case(TriMesh given = ball_surface(5, 20)) : surface(std::move(given)) {
     std::mt19937 generator(5);
     std::uniform_real_distribution<double> uniform(-1, 1);
     for (const Vec3& p : surface.points) {
@@ -145,6 +148,23 @@ TEST(Relax, LeavesWhatIsHeldAndGoesToGoalsWithoutBending) {
   const std::vector<Vec3> x = relax(c.umbrella, c.springs, 1e-9, c.surface.points);
   EXPECT_EQ(x[3], c.surface.points[3]);
   EXPECT_LT(norm(x[4] - c.springs.goal[4]), 1e-3);
+}
+
+/// Held points move by nothing: they make no mean of steps shorter.
+TEST(Relax, EndsWhereItWouldWithoutWhatIsHeldElsewhere) {
+  Case alone;
+  Case both(joined(alone.surface, moved(ball_surface(5, 60), {20, 0, 0})));
+  const std::size_t free = alone.surface.points.size();
+  std::fill(both.springs.held.begin() + static_cast<std::ptrdiff_t>(free), both.springs.held.end(),
+            1);
+  for (const double least_step : {0.0, 0.002, 0.01, 0.03}) {
+    alone.springs.least_step = both.springs.least_step = least_step;
+    const auto x = relax(alone.umbrella, alone.springs, 3, alone.surface.points);
+    const auto y = relax(both.umbrella, both.springs, 3, both.surface.points);
+    for (std::size_t p = 0; p < y.size(); ++p) {
+      EXPECT_LT(norm(y[p] - (p < free ? x[p] : both.surface.points[p])), 1e-12) << least_step;
+    }
+  }
 }
 
 TEST(Relax, HasTheSameBitsForAnyNumberOfThreads) {
