@@ -3,11 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "fit/rough_ball.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/surface/comparison.h"
 #include "mesamis/surface/extract_net.h"
 #include "mesamis/surface/self_intersections.h"
+#include "mesamis/surface/triangle_tree.h"
 #include "support/label_grids.h"
 
 namespace mesamis {
@@ -76,6 +81,66 @@ TEST(SplitBends, ObjectsThatTouchShareNewPoints) {
   for (const Index m : materials_of(net)) {
     EXPECT_EQ(solid_flaws_of(check_surface(object_surface(whole, m))), "") << m;
   }
+}
+
+/// A ball of three objects, cut by discs at the equator and at the ring of points above it: curves.
+struct CutBall {
+  TriMesh surface;
+  std::vector<std::array<Index, 2>> sides;
+  std::vector<char> on_curve;
+};
+
+CutBall cut_ball(double radius, Index turns) {
+  CutBall cut{ball(radius, turns), {}, {}};
+  const double above = 20 + radius * std::sin(2 * std::numbers::pi / turns);
+  const auto ring_of = [&](const Vec3& p) {  // 1, 2: of the discs; 0: of none
+    if (std::abs(p.z - 20) < 1e-9) return 1;
+    return std::abs(p.z - above) < 1e-9 ? 2 : 0;
+  };
+  std::array<std::vector<Index>, 3> rings;
+  for (Index p = 0; p < std::ssize(cut.surface.points); ++p) {
+    const auto ring = static_cast<std::size_t>(ring_of(cut.surface.points[p]));
+    rings[ring].push_back(p);
+    cut.on_curve.push_back(ring > 0 ? 1 : 0);
+  }
+  for (const Triangle& t : cut.surface.triangles) {
+    const auto [a, b, c] = corners_of(cut.surface, t);
+    const double z = (a.z + b.z + c.z) / 3;
+    cut.sides.push_back({0, z < 20 ? 1 : z < above ? 2 : 3});
+  }
+  for (const std::size_t ring : {1U, 2U}) {
+    const auto center = static_cast<Index>(cut.surface.points.size());
+    cut.surface.points.push_back({20, 20, ring == 1 ? 20 : above});
+    cut.on_curve.push_back(0);
+    for (std::size_t i = 0; i < rings[ring].size(); ++i) {
+      cut.surface.triangles.push_back(
+          {rings[ring][i], rings[ring][(i + 1) % rings[ring].size()], center});
+      cut.sides.push_back({static_cast<Index>(ring), static_cast<Index>(ring + 1)});
+    }
+  }
+  return cut;
+}
+
+/// Discs and ball meet at the curves: a normal of both would lead off the ball. An edge between the
+/// curves has no end that knows how the ball bends.
+TEST(SplitBends, BesideCurvesNewPointsGoToTheBallAndBetweenThemEdgesStay) {
+  constexpr double kRound = 10;
+  constexpr Index kTurns = 20;
+  const CutBall cut = cut_ball(kRound, kTurns);
+  ASSERT_EQ(std::count(cut.on_curve.begin(), cut.on_curve.end(), 1), 2 * kTurns);
+  const SplitBoundaries found = split_bends({cut.surface, cut.sides, cut.on_curve}, wide_grid());
+  int beside = 0;
+  for (std::size_t n = 0; n < found.edges.size(); ++n) {
+    const auto [a, b] = found.edges[n];
+    const int on_curves = cut.on_curve[a] + cut.on_curve[b];
+    EXPECT_LT(on_curves, 2);
+    if (on_curves == 0) continue;
+    ++beside;
+    const std::size_t p = cut.surface.points.size() + n;
+    const Vec3 start = found.surface.points[p] - Vec3{20, 20, 20};
+    EXPECT_LT(std::abs(kRound - norm(start + found.shifts[p])), 0.15 * (kRound - norm(start)));
+  }
+  EXPECT_GE(beside, 2 * kTurns) << "beyond each curve";
 }
 
 /// On the box a point has no normal: nothing leaves the box, and its rim stays.
