@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "fit/rough_ball.h"
 #include "fit/smooth_surface.h"
@@ -14,6 +15,8 @@
 #include "mesamis/surface/self_intersections.h"
 #include "mesamis/surface/triangle_tree.h"
 #include "support/edge_lengths.h"
+#include "support/sampled_volume.h"
+#include "support/shapes.h"
 #include "support/throws.h"
 
 namespace mesamis {
@@ -92,6 +95,37 @@ TEST(FitSurface, IsSmoothWhereBoundariesWouldMeet) {
   const TriMesh fitted = fit_surface(both, ball_image(), points, {});
   EXPECT_TRUE(find_self_intersections(fitted).empty());
   EXPECT_LT(share_of_creases(fitted), 0.01);
+}
+
+/// A bright ball in a bright room, with a dark gap between them.
+SplineImage ball_in_a_room(double ball, double room) {
+  constexpr double kBlur = 0.35;
+  const Vec3 centre = 0.5 * ball_image().grid.box().extent();
+  return interpolating_spline(sampled_volume({40, 40, 40}, {1, 1, 1}, [&](const Vec3& p) {
+    const auto beyond = [&](double radius) {
+      return std::erf((norm(p - centre) - radius) / (std::sqrt(2.0) * kBlur));
+    };
+    return 230 - 55 * (beyond(ball) - beyond(room));
+  }));
+}
+
+/// The first two see the ball and meet there. The third sees the room, within where the second was:
+/// it meets that one once it comes back, far from where both were when the first two met.
+TEST(FitSurface, IsSmoothWhereOneThatComesBackMeetsAnother) {
+  const SplineImage image = ball_in_a_room(kRadius, kRadius + 1.2);
+  TriMesh all;
+  std::vector<double> contrast;
+  for (const auto& [radius, sees] :
+       {std::pair{kRadius - 0.8, 110.0}, std::pair{kRadius + 1.4, 110.0},
+        std::pair{kRadius + 2.6, -110.0}}) {
+    all = joined(all, moved(ball_surface(radius, 90), 0.5 * image.grid.box().extent()));
+    contrast.resize(all.points.size(), sees);
+  }
+  FitPoints points = points_of(all, 0);
+  points.contrast = std::move(contrast);
+  const TriMesh fitted = fit_surface(all, image, points, {});
+  EXPECT_TRUE(find_self_intersections(fitted).empty());
+  EXPECT_LT(share_of_creases(fitted), 0.001) << "the start has none";
 }
 
 TEST(FitSurface, LeavesPointsOnTheBox) {
