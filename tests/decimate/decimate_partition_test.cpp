@@ -7,7 +7,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <set>
+#include <utility>
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/decimate/collapse.h"
@@ -20,6 +22,7 @@
 #include "support/level_set.h"
 #include "support/partition_laws.h"
 #include "support/random_memberships.h"
+#include "support/solids.h"
 #include "support/throws.h"
 
 namespace mesamis {
@@ -402,6 +405,62 @@ TEST(DecimatePartition, MakesNoCreaseOfACurveWhereObjectsGoOnSmoothly) {
       const auto result = decimate_partition(partition, {.tolerance = c.tolerance});
       EXPECT_LT(curves_of(result).size(), curves_of(partition).size() * 2 / 3);
       EXPECT_LT(creases_outside(result)[1], 1e-6) << "rounding alone";
+    }
+  }
+}
+
+/// A flat lens on a floor: at their curve, the unit circle, all boundaries are nearly in one plane.
+/// @param slope  of the lens at the circle.
+PartitionSurface lens_on_floor(double slope, Index turns) {
+  constexpr int kRings = 8;
+  std::vector<ProfilePoint> profile;  // the floor beyond the lens, and the lens from above
+  for (int i = 0; i < kRings; ++i) profile.push_back({2.0 - 1.0 * i / kRings, 0});
+  for (int i = 0; i <= kRings; ++i) {
+    const double radius = 1 - 1.0 * i / kRings;
+    profile.push_back({radius, 0.5 * slope * (1 - radius * radius)});
+  }
+  TriMesh seen = revolved(profile, turns);
+  PartitionSurface lens;
+  for (const Triangle& t : seen.triangles) {
+    lens.triangles.push_back({t[0], t[2], t[1]});  // as seen from below
+    const double z = seen.points[t[0]].z + seen.points[t[1]].z + seen.points[t[2]].z;
+    lens.sides.push_back({0, z > 0 ? 2 : 1});
+  }
+  lens.points = std::move(seen.points);
+  const auto center = static_cast<Index>(lens.points.size());
+  lens.points.push_back({0, 0, 0});
+  for (Index k = 0; k < turns; ++k) {
+    const Index ring = kRings * turns;
+    lens.triangles.push_back({ring + k, ring + (k + 1) % turns, center});
+    lens.sides.push_back({1, 2});
+  }
+  return lens;
+}
+
+/// The boundaries hardly say where the curve goes: it holds itself. With its points at the best
+/// places its edges lie nearer to the circle than those of a polygon with points on it, whose mean
+/// distance is two thirds of the greatest.
+TEST(DecimatePartition, KeepsACurveInPlaceWhereBoundariesAreNearlyInOnePlane) {
+  for (const double slope : {0.02, 0.05}) {
+    const PartitionSurface partition = lens_on_floor(slope, 48);
+    for (const double tolerance : {0.01, 0.02, 0.03, 0.05}) {
+      const auto result = decimate_partition(partition, {.tolerance = tolerance});
+      double away = 0, length = 0, points = 0;
+      for (const auto& [from, neighbors] : curves_of(result)) {
+        const Vec3 a{from[0], from[1], from[2]};
+        if (norm(a) > 1.5) continue;  // the end of the floor
+        points += 1;
+        for (const auto& to : neighbors) {
+          const Vec3 way = Vec3{to[0], to[1], to[2]} - a;
+          constexpr int kSteps = 20;
+          for (int i = 0; i < kSteps; ++i) {
+            away += std::abs(norm(a + ((i + 0.5) / kSteps) * way) - 1) * norm(way) / kSteps;
+          }
+          length += norm(way);
+        }
+      }
+      EXPECT_LT(points, 48 * 2 / 3);
+      EXPECT_LT(away / length, 2.0 / 3 * (1 - std::cos(std::numbers::pi / points)));
     }
   }
 }
