@@ -79,9 +79,9 @@ TEST(CutIntoPatches, HoldsNothingInAWhole) {
 }
 
 /// Points that patches of a lattice hold.
-std::set<Index> held_points(const TriMesh& surface, double side, double shift) {
+std::set<Index> held_points(const TriMesh& surface, double side) {
   std::set<Index> held;
-  for (const Patch& patch : cut_into_patches(cover_of(surface), side, shift)) {
+  for (const Patch& patch : cut_into_patches(cover_of(surface), side)) {
     for (std::size_t i = 0; i < patch.points.size(); ++i) {
       if (patch.held[i] != 0) held.insert(patch.points[i]);
     }
@@ -90,9 +90,9 @@ std::set<Index> held_points(const TriMesh& surface, double side, double shift) {
 }
 
 // So that few points are left which neither frees.
-TEST(CutIntoPatches, AShiftedLatticeFreesMostOfWhatTheOtherHolds) {
+TEST(CutIntoPatches, ALatticeOfTwiceTheSideFreesMostOfWhatTheOtherHolds) {
   const TriMesh surface = sphere();
-  const auto first = held_points(surface, 1, 0), second = held_points(surface, 1, 0.5);
+  const auto first = held_points(surface, 1), second = held_points(surface, 2);
   std::vector<Index> both;
   std::set_intersection(first.begin(), first.end(), second.begin(), second.end(),
                         std::back_inserter(both));
@@ -125,7 +125,7 @@ TEST(CutIntoPatches, HoldsTheRest) {
   std::vector<char> chosen(surface.points.size());
   for (std::size_t p = 0; p < chosen.size(); ++p) chosen[p] = surface.points[p].x > 0.3 ? 1 : 0;
   for (const double side : {0.5, std::numeric_limits<double>::infinity()}) {
-    const auto cut = cut_into_patches(cover_of(surface), side, 0, chosen);
+    const auto cut = cut_into_patches(cover_of(surface), side, chosen);
     ASSERT_GE(cut.size(), 2u);
     EXPECT_EQ(triangles_of(cut).size(), surface.triangles.size());
     for (const Patch& patch : cut) {
@@ -141,7 +141,7 @@ TEST(CutIntoPatches, HoldsTheRest) {
     }
   }
   const std::vector<char> all(surface.points.size(), 1);
-  EXPECT_EQ(cut_into_patches(cover_of(surface), 0.5, 0, all).size(),
+  EXPECT_EQ(cut_into_patches(cover_of(surface), 0.5, all).size(),
             cut_into_patches(cover_of(surface), 0.5).size());
 }
 

@@ -63,7 +63,7 @@ struct Work {
 
 TEST(Patchwork, KeepsThePromisesOfDecimation) {
   Work work(torus(), 0.02);
-  const Cover cover = work.run(0.8);
+  const Cover cover = work.run(1);
   work.expect_promises_kept(cover);
   EXPECT_LT(cover.triangles.size(), work.surface.triangles.size() / 2);
 }
@@ -130,7 +130,7 @@ TEST(Patchwork, ARestStaysAndIsNotMet) {
     std::vector<char> around = open;
     choose_rings(work.surface.triangles, 2, around);
     std::vector<Patch> patches =
-        cut_into_patches(cover_of(work.surface), trial % 2 == 0 ? 0.7 : 1e9, 0.25, around);
+        cut_into_patches(cover_of(work.surface), trial % 2 == 0 ? 0.7 : 1e9, around);
     const std::size_t rest = patches.back().cover.triangles.size();
     ASSERT_GT(rest, 100u);
     for (Patch& patch : patches) {

@@ -16,13 +16,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Patches of a large surface, about: more have more seams, which are decimated in one thread.
-constexpr double kMostPatches = 64;
-
 /// The side of the boxes that hold a patch each, mm. A box cuts the surface in about two layers.
 double patch_side(const TriMesh& surface, const DecimateOptions& options, double per_patch) {
   const auto triangles = static_cast<double>(surface.triangles.size());
-  per_patch = std::max(per_patch, triangles / kMostPatches);
   if (triangles < 2 * per_patch || options.triangles > 0) return kInfinity;
   const double side = std::sqrt(surface_area(surface) / triangles * per_patch / 2);
   return side > 0 ? side : kInfinity;
@@ -60,13 +56,16 @@ class Decimation {
   /// @param held  of each point of the surface 1 if it stays.
   Cover run(Cover cover, const std::vector<char>& held, double side) {
     std::vector<char> open(cover.points.size(), 1);  // of each point 1 if it may go
-    if (!std::isinf(side)) {
-      decimate_boxes(cover, held, open, {side, 0, 0, 0.8});
-      // Across the seams of the lattices before.
-      decimate_boxes(cover, held, open, {side, 0.5, 0.8, 0.95});
-      decimate_boxes(cover, held, open, {side, 0.25, 0.95, 0.99});
+    const Box box = bounding_box(cover.points);
+    const Vec3 size = box.hi - box.lo;
+    const double extent = std::max({size.x, size.y, size.z});
+    double done = 0;
+    for (; side < extent; side *= 2) {  // each across the seams of the one before
+      const double end = 0.5 * (done + 1);
+      decimate_boxes(cover, held, open, {side, done, end});
+      done = end;
     }
-    decimate_boxes(cover, held, open, {kInfinity, 0, std::isinf(side) ? 0 : 0.99, 1});
+    decimate_boxes(cover, held, open, {kInfinity, done, 1});
     return cover;
   }
 
@@ -75,8 +74,8 @@ class Decimation {
   static constexpr double kRounding = 1e-9;
 
   struct Lattice {
-    double side, shift;  ///< see cut_into_patches()
-    double begin, end;   ///< shares of the work
+    double side;        ///< see cut_into_patches()
+    double begin, end;  ///< shares of the work
   };
 
   /// Decimates the patches in the boxes of a lattice.
@@ -85,8 +84,7 @@ class Decimation {
                       const Lattice& lattice) {
     const std::vector<Vec3> points = cover.points;
     const std::vector<char> around = points_around(cover, open);
-    std::vector<Patch> patches =
-        cut_into_patches(std::move(cover), lattice.side, lattice.shift, around);
+    std::vector<Patch> patches = cut_into_patches(std::move(cover), lattice.side, around);
     std::vector<char> at_seams(points.size(), 0);
     for (Patch& patch : patches) {
       for (std::size_t i = 0; i < patch.points.size(); ++i) {

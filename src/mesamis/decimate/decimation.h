@@ -7,18 +7,18 @@
 
 namespace mesamis::detail::decimate {
 
-/// Triangles of a patch, about; more where the surface is very large. Surfaces of less than two are
-/// one patch.
-inline constexpr double kTrianglesPerPatch = 40'000;
+/// Triangles of a patch, about, so that what is looked at stays in a processor's cache. Surfaces of
+/// less than two are one patch.
+inline constexpr double kTrianglesPerPatch = 4000;
 
 /// Checks the options of decimate() and decimate_partition().
 /// @throws InputError  if one is out of range.
 void require_valid(const DecimateOptions& options);
 
-/// Decimates a surface patch by patch, in the boxes of three lattices, of which each goes across the
-/// seams of those before; then what is left of these in one piece. Where the number of triangles is
-/// given, and for less than two patches, there is one patch: the order of all collapses decides
-/// then.
+/// Decimates a surface patch by patch, in the boxes of a lattice; then its seams, in the boxes of
+/// one of twice the side, and so on; in the end what is left of them in one piece. Where the number
+/// of triangles is given, and for less than two patches, there is one patch: the order of all
+/// collapses decides then.
 /// @param surface              closed, 2-manifold.
 /// @param options              valid; the tolerance is not 0. Progress grows, and is never called
 ///                             by two threads at once.

@@ -23,13 +23,12 @@ struct PatchNumbers {
 };
 
 /// Patches are numbered in the order of their boxes.
-PatchNumbers patch_numbers(const Cover& cover, double side, double shift,
-                           const std::vector<char>& chosen) {
+PatchNumbers patch_numbers(const Cover& cover, double side, const std::vector<char>& chosen) {
   using Place = std::array<double, 3>;  // of a box: whole numbers
   constexpr double kBeyond = std::numeric_limits<double>::infinity();
   constexpr Place kRest{kBeyond, kBeyond, kBeyond};
   const std::vector<Vec3>& points = cover.points;
-  const double back = shift * side;
+  const double back = 0.5 * side;
   const Vec3 origin = bounding_box(points).lo - Vec3{back, back, back};
   std::vector<Place> boxes(cover.triangles.size());
   parallel_for(boxes.size(), [&](std::size_t n) {
@@ -182,9 +181,8 @@ void hold(Patch& patch, const std::vector<Index>& points, const std::vector<Inde
   for (std::size_t p = 0; p < chosen.size(); ++p) patch.held[p] |= chosen[p];
 }
 
-std::vector<Patch> cut_into_patches(Cover cover, double side, double shift,
-                                    const std::vector<char>& chosen) {
-  const PatchNumbers numbers = patch_numbers(cover, side, shift, chosen);
+std::vector<Patch> cut_into_patches(Cover cover, double side, const std::vector<char>& chosen) {
+  const PatchNumbers numbers = patch_numbers(cover, side, chosen);
   Cutter cutter(cover, numbers.of_triangle);
   std::vector<Patch> patches = cutter.cut(std::move(cover), numbers.of_triangle);
   if (numbers.has_rest) std::fill(patches.back().held.begin(), patches.back().held.end(), 1);

@@ -33,17 +33,16 @@ void choose_rings(std::vector<Triangle> triangles, std::span<const Index> first_
 void hold(Patch& patch, const std::vector<Index>& points, const std::vector<Index>& originals,
           int rings);
 
-/// Cuts a cover into patches: the triangles whose centres lie in one box of a lattice. Points that
-/// patches share are held in all of them, as are their neighbours: what touches a shared point
-/// stays.
+/// Cuts a cover into patches: the triangles whose centres lie in one box of a lattice. This begins
+/// half a side before the cover: so the planes of one with twice the side lie midway between those
+/// of another. Points that patches share are held in all of them, as are their neighbours: what
+/// touches a shared point stays.
 /// @param side    of the boxes, mm, > 0; infinity: one patch, of which nothing is held but for what
 ///                touches others than the chosen.
-/// @param shift   of the lattice along each axis, as a share of the side.
 /// @param chosen  of each point, 1 or 0: triangles without a chosen corner are no part of these
 ///                patches, but make one more, the last, of which all is held; empty: all are.
 ///
 /// O(n log n) for n triangles.
-std::vector<Patch> cut_into_patches(Cover cover, double side, double shift = 0,
-                                    const std::vector<char>& chosen = {});
+std::vector<Patch> cut_into_patches(Cover cover, double side, const std::vector<char>& chosen = {});
 
 }  // namespace mesamis::detail::decimate
