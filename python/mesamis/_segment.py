@@ -9,7 +9,7 @@ from . import _core
 from ._progress import Follow
 from ._result import result_of
 from ._settings import table_text, to_json
-from ._volume import is_path, labels_on, read_scan, refuse, scan_of
+from ._volume import is_path, labels_on, read_scan, refuse, scan_of, spacing_list
 from ._warnings import warn
 
 
@@ -17,11 +17,22 @@ def _marks(image, scan, order):
     """A path, or a scan whose samples are labels; None stays None."""
     if image is None or is_path(image):
         return None if image is None else os.fspath(image)
-    if isinstance(image, np.ndarray):
-        if scan is None:
-            raise _core.InputError("labels: expected a scan beside an array of labels, found none")
+    if isinstance(image, np.ndarray) and scan is not None:
         return labels_on(scan, image, order)
     return scan_of(image)[0]
+
+
+def _labels_alone(labels, resample, place):
+    """A path, or a scan whose samples are labels, where there is no other; None stays None."""
+    if labels is None:
+        return None
+    if is_path(labels):
+        refuse("labels of a path", {**place, "spacing": None})
+        return os.fspath(labels)
+    refuse("labels of an array or an image", {"resample": resample or None})
+    if isinstance(labels, np.ndarray) and place["affine"] is None and place["spacing"] is None:
+        raise _core.InputError("labels: expected a scan, affine or spacing beside an array, found none")
+    return scan_of(labels, **place)[0]
 
 
 def _box_text(box):
@@ -60,7 +71,7 @@ def segment(
     box=None, remove=None, keep_surroundings=False, frame="lps", preset="default", settings_file=None,
     series=None, resample=False, volume_number=None, channel=None, padding=None, progress=None, threads=0, memory=0, time_limit=None, **settings,
 ):
-    marks_scan, ours = None, False
+    marks_scan, ours, of_labels = None, False, {}
     place = {"origin": origin, "direction": direction, "order": order}
     numbers = {"volume_number": volume_number, "channel": channel}
     of_paths = {"series": series or None, "resample": resample or None, **numbers}
@@ -73,10 +84,13 @@ def segment(
         refuse("an array or an image", of_paths)
         marks_scan, axes = scan_of(volume, affine, spacing, origin, direction, order, modality)
     else:
-        refuse("labels alone", {"affine": affine, "spacing": spacing, **place, "modality": modality,
-                                **of_paths})
+        refuse("labels alone", {"modality": modality, "series": series or None, **numbers})
         axes = "ijk"
+        labels = _labels_alone(labels, resample, {"affine": affine, "spacing": spacing, **place})
+        if is_path(labels):
+            of_labels = {"spacing": spacing_list(spacing), "resample": bool(resample)}
     arguments = {
+        **of_labels,
         "settings": to_json(settings),
         "preset": preset,
         "settings_file": None if settings_file is None else os.fspath(settings_file),
@@ -131,7 +145,8 @@ padding
 labels, label, label_names, margin, mesh
     A label map (path, image, or array of the scan's shape) that says which objects are meant;
     which of them, by name or number; their names, {{number: name}} or a path; how far they may be
-    wrong, mm; whether to make a mesh too. The result is then a `LabelResult`.
+    wrong, mm; whether to make a mesh too. The result is then a `LabelResult`. Without `volume`, an
+    array needs `affine` or `spacing`, and of a path `spacing` and `resample` are as of a scan's.
 tissue, mask, seeds, box, remove, keep_surroundings
     Which object is meant: a tissue ("bone", "airway", ..., "LO:HI"); a label map around it; points
     (mm, in the frame) of its islands; the part of the scan, ((x0, x1), (y0, y1), (z0, z1)), mm;

@@ -111,10 +111,14 @@ def is_path(value):
     return isinstance(value, (str, os.PathLike))
 
 
+def spacing_list(spacing):
+    """Along x, y, z; None stays None."""
+    return None if spacing is None else [float(s) for s in spacing]
+
+
 def read_scan(path, *, spacing=None, resample=False, memory=0, **others):
     """`others`: series, volume_number, channel, modality."""
-    spacing = None if spacing is None else [float(s) for s in spacing]
-    return _core.read_scan(os.fspath(path), {"spacing": spacing, "resample": bool(resample),
+    return _core.read_scan(os.fspath(path), {"spacing": spacing_list(spacing), "resample": bool(resample),
                                              "memory": float(memory), **others})
 
 

@@ -86,6 +86,10 @@ CallRequest request_of(const Arguments& a) {
   }
   r.margin = a.find<double>("margin");
   r.time_limit = a.find<double>("time_limit");
+  if (const auto spacing = a.find<std::array<double, 3>>("spacing")) {
+    r.spacing = Vec3{(*spacing)[0], (*spacing)[1], (*spacing)[2]};
+  }
+  r.resample = a.get<bool>("resample");
   r.keep_surroundings = a.get<bool>("keep_surroundings");
   r.padding = parse_padding(a.get<std::string>("padding", "auto"));
   r.mesh = a.get<bool>("mesh");
@@ -102,8 +106,12 @@ LabelMap labels_of(const LabelSource& source, const LabelOptions& options,
   return std::move(file.map);
 }
 
-LabelOptions label_options(const CallRequest& request, const VoxelGrid& scan) {
-  return {{.memory_gb = request.memory_gb}, [&scan] { return scan; }};
+LabelOptions label_options(const CallRequest& request, const VoxelGrid* scan) {
+  LabelOptions options{.limits = {.memory_gb = request.memory_gb},
+                       .spacing = request.spacing,
+                       .resample = request.resample};
+  if (scan != nullptr) options.scan = [scan] { return *scan; };
+  return options;
 }
 
 ObjectRequest object_request(const CallRequest& r, const VoxelGrid& grid,
@@ -114,7 +122,7 @@ ObjectRequest object_request(const CallRequest& r, const VoxelGrid& grid,
   for (const auto& seed : r.seeds) {
     request.seeds.push_back(in_frame({seed[0], seed[1], seed[2]}, r.frame));
   }
-  const LabelOptions how = label_options(r, grid);
+  const LabelOptions how = label_options(r, &grid);
   if (r.mask) request.mask = labels_of(*r.mask, how, warnings);
   request.padding = r.padding;
   request.margin = r.margin.value_or(request.margin);

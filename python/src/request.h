@@ -94,6 +94,8 @@ struct CallRequest {
   std::vector<std::pair<Index, std::string>> names;  ///< of labels
   std::string names_file;
   std::optional<double> margin, time_limit;
+  std::optional<Vec3> spacing;  ///< of a file of labels alone, mm: instead of the file's
+  bool resample = false;        ///< a file of labels alone, if its grid is sheared
   bool remove_body = false, keep_surroundings = false, mesh = false;
   PaddingRule padding{};
   double memory_gb = 0;
@@ -104,8 +106,8 @@ struct CallRequest {
 /// @throws InputError  for settings that are refused, and for what does not go together.
 CallRequest request_of(const Arguments& arguments);
 
-/// How labels are read beside a scan, which the options refer to.
-LabelOptions label_options(const CallRequest& request, const VoxelGrid& scan);
+/// How labels are read beside a scan, which the options refer to; null: labels alone.
+LabelOptions label_options(const CallRequest& request, const VoxelGrid* scan);
 
 /// Reads the labels.
 /// @param warnings  those of the reader are added.

@@ -32,8 +32,7 @@ struct GivenScan {
 /// @param scan  whose grid labels may need; may be null.
 LabelChoice label_choice(const CallRequest& call, const Scan* scan,
                          std::vector<std::string>& warnings) {
-  LabelOptions how{.limits = {.memory_gb = call.memory_gb}};
-  if (scan != nullptr) how = label_options(call, scan->view);
+  const LabelOptions how = label_options(call, scan != nullptr ? &scan->view : nullptr);
   LabelMap map = labels_of(*call.labels, how, warnings);
   if (!call.names_file.empty()) map = with_names(std::move(map), read_label_table(call.names_file));
   for (const auto& [label, name] : call.names) {

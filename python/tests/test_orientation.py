@@ -180,6 +180,39 @@ def test_labels_follow_the_order_of_the_scan(samples):
     assert np.array_equal(one.objects[0].points, other.objects[0].points)
 
 
+def test_labels_alone_give_the_same_bytes_whatever_they_are_given_as(nifti, samples, tmp_path):
+    import nibabel
+
+    matrix = AFFINES["plain"]
+    labels = (samples > np.median(samples)).astype(np.uint8)
+    grid = mesamis.read_volume(nifti(matrix))
+    path, finer = tmp_path / "labels.nii", tmp_path / "finer.nii"
+    nibabel.save(nibabel.Nifti1Image(labels, matrix), path)
+    nibabel.save(nibabel.Nifti1Image(labels, matrix @ np.diag([0.5, 0.5, 0.5, 1])), finer)
+    place = {"spacing": grid.spacing, "origin": grid.origin, "direction": grid.direction}
+    inputs = {
+        "path": (path, {}),
+        "path, of another spacing": (finer, {"spacing": grid.spacing}),
+        "nibabel": (nibabel.load(path), {}),
+        "array": (labels, {"affine": matrix}),
+        "array of 64 bits, z y x": (labels.T.astype(np.int64), place),
+        "array with axes, i j k": (labels, {**place, "order": "ijk"}),
+        "SimpleITK": (FakeSitkImage(labels.T.copy(), grid.spacing, grid.origin, grid.direction), {}),
+    }
+    found = {key: mesamis.segment(labels=given, **where) for key, (given, where) in inputs.items()}
+    expected = surface_bytes(found["path"].objects[0], tmp_path)
+    for key, result in found.items():
+        assert surface_bytes(result.objects[0], tmp_path) == expected, key
+
+
+def test_labels_of_an_array_alone_need_a_place(samples):
+    labels = (samples > np.median(samples)).astype(np.uint8)
+    with pytest.raises(mesamis.InputError, match="expected a scan, affine or spacing beside an array, found none"):
+        mesamis.segment(labels=labels)
+    with pytest.raises(mesamis.InputError, match="without resample"):
+        mesamis.segment(labels=labels, spacing=1, resample=True)
+
+
 @pytest.mark.parametrize("name, value", [("affine", np.eye(4)), ("spacing", 1), ("origin", (0, 0, 0)),
                                          ("direction", np.eye(3)), ("order", "ijk")])
 def test_a_place_beside_what_has_one_is_refused(name, value, samples, nifti):
@@ -193,8 +226,11 @@ def test_a_place_beside_what_has_one_is_refused(name, value, samples, nifti):
             continue  # taken instead of the file's
         with pytest.raises(mesamis.InputError, match=f"expected {kind} without {name}, found both"):
             mesamis.segment(scan, **{name: value}, preview=True)
-    with pytest.raises(mesamis.InputError, match=f"expected labels alone without {name}"):
+    with pytest.raises(mesamis.InputError, match=f"expected an image of nibabel without {name}, found both"):
         mesamis.segment(labels=nibabel.load(path), **{name: value})
+    if name != "spacing":  # taken instead of the file's
+        with pytest.raises(mesamis.InputError, match=f"expected labels of a path without {name}, found both"):
+            mesamis.segment(labels=path, **{name: value})
 
 
 def test_what_is_of_files_or_of_arrays_is_refused_elsewhere(samples, nifti):

@@ -33,14 +33,20 @@ TEST(PublicReport, CountsWarningsThatMayNameSomebody) {
                         "the first 1.dcm of Miller",
                         7};
   const json shown = public_report(report, false);
-  EXPECT_EQ(shown["warnings"],
-            json({level, "5 warnings of the reader: see the report or --html-names"}));
-  EXPECT_EQ(shown["input"]["warnings"],
-            json::array({"2 warnings of the reader: see the report or --html-names"}));
+  EXPECT_EQ(
+      shown["warnings"],
+      json({level,
+            "5 warnings hidden, which may name files or people: see the report or --html-names"}));
+  EXPECT_EQ(
+      shown["input"]["warnings"],
+      json::array(
+          {"2 warnings hidden, which may name files or people: see the report or --html-names"}));
   EXPECT_EQ(public_report(report, true)["warnings"], report["warnings"]);
   report["warnings"] = {read};
-  EXPECT_EQ(public_report(report, false)["warnings"],
-            json::array({"1 warning of the reader: see the report or --html-names"}));
+  EXPECT_EQ(
+      public_report(report, false)["warnings"],
+      json::array(
+          {"1 warning hidden, which may name files or people: see the report or --html-names"}));
   report["warnings"] = json::array();
   EXPECT_EQ(public_report(report, false)["warnings"], json::array());
 }

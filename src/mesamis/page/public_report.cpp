@@ -67,7 +67,7 @@ json shown_warnings(const json& warnings, const json& of_reader) {
   }
   if (hidden > 0) {
     shown.push_back(std::to_string(hidden) + (hidden == 1 ? " warning" : " warnings") +
-                    " of the reader: see the report or --html-names");
+                    " hidden, which may name files or people: see the report or --html-names");
   }
   return shown;
 }
