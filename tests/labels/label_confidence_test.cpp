@@ -76,6 +76,21 @@ TEST(LabelConfidence, DoesNotTrustAClefOfBackground) {
   EXPECT_LT(weight_at(labels, weight, 10), 0.01);
 }
 
+TEST(LabelConfidence, IsCertainAtBordersThatTheImageDoesNotShow) {
+  const OwnedLabels labels = labels_where({24, 5, 5}, {1, 1, 1}, [](const Vec3& p) {
+    return p.x < 8 ? 3 : p.x < 16 ? 1 : 0;
+  });
+  const auto seen = label_confidence(labels.grid(), 3);
+  for (const LabelPair& pair : {LabelPair{1, 3}, LabelPair{3, 1}}) {
+    const auto weight = label_confidence(labels.grid(), 3, {{pair}});
+    for (Index i = 0; i < 12; ++i) EXPECT_EQ(weight_at(labels, weight, i), kCertain) << i;
+    for (Index i = 12; i < 24; ++i) {
+      EXPECT_EQ(weight_at(labels, weight, i), weight_at(labels, seen, i)) << i;
+    }
+    EXPECT_LT(weight_at(labels, weight, 15), 0.01);
+  }
+}
+
 TEST(LabelConfidence, MeasuresInMillimetres) {
   const OwnedLabels fine =
       labels_where({20, 3, 3}, {0.5, 0.5, 0.5}, [](const Vec3& p) { return p.x >= 5 ? 1 : 0; });

@@ -285,6 +285,24 @@ TEST(LabelSurfaces, TheLabelsDecideWhereTheImageShowsNothing) {
   }
 }
 
+/// What the scan shows of an object may be little or nothing: labels that flow then keep what they have.
+TEST(LabelSurfaces, OfCoarseLabelsKeepTheirVolumeWhereTheImageShowsLittle) {
+  for (const double contrast : {0.0, 60.0}) {
+    const Volume scan = scan_of(600, 50 + contrast, 50, 20);
+    for (const Index every : {1, 3}) {
+      const LabelMap labels = labels_of(every, 0);
+      Settings settings;
+      settings.fit = every > 1;
+      const LabelResult found =
+          find_labelled_objects(scan, {labels, {labels.segments[1]}}, settings);
+      const double volume = check_surface(found.objects[0].surface).volume;
+      const auto voxels = std::count(labels.layers[0].begin(), labels.layers[0].end(), 2);
+      const double expected = static_cast<double>(voxels) * std::pow(every, 3);
+      EXPECT_NEAR(volume, expected, 0.2 * expected) << contrast << ", every " << every;
+    }
+  }
+}
+
 TEST(LabelSurfaces, OneObjectEndsWhereAnotherBegins) {
   const LabelMap labels = labels_of(1, 0);
   const LabelResult& both = objects_by_one_thread();

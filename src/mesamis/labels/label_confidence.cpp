@@ -37,8 +37,9 @@ Index most_of(const Place& by) {
 
 class Depths {
  public:
-  Depths(const LabelGrid& grid, double margin)
+  Depths(const LabelGrid& grid, double margin, std::span<const LabelPair> unseen)
       : grid_(grid),
+        unseen_(unseen),
         step_(static_cast<float>(std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z}))),
         margin_(static_cast<float>(margin)),
         sweeps_(static_cast<int>(std::ceil(margin / step_))) {
@@ -50,7 +51,8 @@ class Depths {
   }
 
   std::vector<float> confidence() const {
-    const std::vector<float> depth = depths();
+    std::vector<char> at_unseen(grid_.labels.size(), 0);
+    const std::vector<float> depth = depths(at_unseen);
     std::vector<float> middle = depth;
     parallel_for(middle.size(), [&](std::size_t n) {
       if (grid_.labels[n] == 0) middle[n] = margin_;
@@ -60,7 +62,8 @@ class Depths {
     const std::vector<std::uint8_t> ridge = large_ridges(depth);
     std::vector<float> weight(depth.size());
     parallel_for(weight.size(), [&](std::size_t n) {
-      weight[n] = ridge[n] != 0 ? kCertain : weight_of(depth[n], zone[n]);
+      const bool certain = ridge[n] != 0 || at_unseen[n] != 0;
+      weight[n] = certain ? kCertain : weight_of(depth[n], zone[n]);
     });
     return weight;
   }
@@ -156,8 +159,15 @@ class Depths {
     return labels;
   }
 
+  bool is_unseen(Index label, Index other) const {
+    return std::any_of(unseen_.begin(), unseen_.end(), [&](const LabelPair& pair) {
+      return pair == LabelPair{label, other} || pair == LabelPair{other, label};
+    });
+  }
+
   /// To where the nearest voxel of another label begins; at most the margin.
-  std::vector<float> depths() const {
+  /// @param at_unseen  1 where the image shows nothing between the two.
+  std::vector<float> depths(std::vector<char>& at_unseen) const {
     const std::vector<Index> uniform = uniform_labels();
     std::vector<float> depth(grid_.labels.size());
     for_each_node([&](std::size_t n, const Place& p) {
@@ -170,6 +180,9 @@ class Depths {
                grid_.labels[n + static_cast<std::size_t>(s.to)] != grid_.labels[n];
       });
       depth[n] = other == ball_.end() ? margin_ : other->mm;
+      if (other == ball_.end() || unseen_.empty()) return;
+      const std::size_t m = n + static_cast<std::size_t>(other->to);
+      at_unseen[n] = is_unseen(grid_.labels[n], grid_.labels[m]) ? 1 : 0;
     });
     return depth;
   }
@@ -269,6 +282,7 @@ class Depths {
   }
 
   const LabelGrid& grid_;
+  std::span<const LabelPair> unseen_;
   float step_;  // the shortest
   float margin_;
   int sweeps_;
@@ -278,7 +292,8 @@ class Depths {
 
 }  // namespace
 
-std::vector<float> label_confidence(const LabelGrid& grid, double margin) {
+std::vector<float> label_confidence(const LabelGrid& grid, double margin,
+                                    std::span<const LabelPair> unseen) {
   const std::size_t nodes = grid.node_count();
   if (grid.labels.size() != nodes) {
     throw InputError("labels: expected " + std::to_string(nodes) + " of them, found " +
@@ -287,7 +302,7 @@ std::vector<float> label_confidence(const LabelGrid& grid, double margin) {
   if (!(margin > 0) || !std::isfinite(margin)) {
     throw InputError("margin of labels: expected more than 0 mm, found " + std::to_string(margin));
   }
-  return Depths(grid, margin).confidence();
+  return Depths(grid, margin, unseen).confidence();
 }
 
 }  // namespace mesamis::detail::labels

@@ -44,6 +44,7 @@ constexpr double kMostMargin = 50;       // voxels of the scan
 constexpr double kReach = 2;             // margins that a label may flow
 constexpr double kReachOfFit = 0.64;     // margins in which a fitted surface looks for edges
 constexpr double kReachAfterFlow = 1.6;  // voxels, the same
+constexpr double kContrastKept = 0.9;    // of a boundary's, by labels that flow to an edge
 constexpr int kDepthOfContacts = 2;      // points of a net, about a voxel from each other
 constexpr double kGapOfContacts = 0.1;   // voxels
 
@@ -142,16 +143,70 @@ std::vector<LabelBoundary> boundaries_of(const LabelRun& run, Index layer,
   return found;
 }
 
-/// The labels flow to the edges of the image.
-GridMemberships flowed(const LabelRun& run, const GridMemberships& smooth, const LabelGrid& grid,
-                       const Edges& edges, bool& converged) {
+/// What the image shows at the boundaries between labels.
+std::vector<PairLevel> pairs_at(const LabelRun& run, Index layer, const GridMemberships& labels,
+                                const Edges& edges) {
+  return measure_pair_levels(extract(run, layer, labels), RunInput(edges.prepared).image);
+}
+
+/// Whether a boundary has left its edge: the image shows less there than where it was.
+bool has_left(const PairLevel& before, const std::vector<PairLevel>& after) {
+  const auto same = std::find_if(after.begin(), after.end(),
+                                 [&](const PairLevel& pair) { return pair.sides == before.sides; });
+  const double sign = before.contrast < 0 ? -1 : 1;
+  return same == after.end() || sign * same->contrast < kContrastKept * std::abs(before.contrast);
+}
+
+/// Of each label whether a flow leaves it less than half of its voxels.
+std::vector<char> labels_lost(const LabelGrid& grid, const GridMemberships& flowed) {
+  std::vector<std::int64_t> before(std::size_t{kMaxLabel} + 1, 0), after = before;
+  for (std::size_t n = 0; n < grid.labels.size(); ++n) {
+    const auto material = static_cast<std::size_t>(flowed.material[n]);
+    ++before[grid.labels[n]];
+    ++after[static_cast<std::size_t>(flowed.label[material])];
+  }
+  std::vector<char> lost(before.size(), 0);
+  for (std::size_t label = 1; label < lost.size(); ++label) {
+    lost[label] = 2 * after[label] < before[label] ? 1 : 0;
+  }
+  return lost;
+}
+
+/// The labels flow to the edges of the image, but where it shows none between two, and where they
+/// would leave it or lose more than half: there they stay.
+GridMemberships flowed(const LabelRun& run, Index layer, const GridMemberships& smooth,
+                       const LabelGrid& grid, const Edges& edges, bool& converged) {
   const Parameters& p = edges.prepared.parameters;
-  const auto weight = label_confidence(grid, run.margin);
-  const FlowOptions flow{p.functional.beta, p.functional.eta, p.unit_mm, kReach * run.margin};
-  FlowReport solved;
-  GridMemberships found = flow_memberships(grid, {smooth, weight, edges.v}, flow, &solved);
-  converged = solved.solver_converged;
-  return found;
+  const FlowOptions how{p.functional.beta, p.functional.eta, p.unit_mm, kReach * run.margin};
+  std::vector<LabelPair> unseen;
+  const auto flow = [&] {
+    const auto weight = label_confidence(grid, run.margin, unseen);
+    FlowReport solved;
+    GridMemberships found = flow_memberships(grid, {smooth, weight, edges.v}, how, &solved);
+    converged = solved.solver_converged;
+    return found;
+  };
+  std::vector<PairLevel> seen;
+  const double noise = RunInput(edges.prepared).noise;
+  for (const PairLevel& pair : pairs_at(run, layer, smooth, edges)) {
+    if (shows_edge(pair, noise)) {
+      seen.push_back(pair);
+    } else {
+      unseen.push_back(pair.sides);
+    }
+  }
+  GridMemberships found = flow();
+  const std::vector<PairLevel> after = pairs_at(run, layer, found, edges);
+  const std::size_t before = unseen.size();
+  const std::vector<char> lost = labels_lost(grid, found);
+  for (const PairLevel& pair : seen) {
+    const auto [one, other] = pair.sides;
+    if (has_left(pair, after) || lost[static_cast<std::size_t>(one)] != 0 ||
+        lost[static_cast<std::size_t>(other)] != 0) {
+      unseen.push_back(pair.sides);
+    }
+  }
+  return unseen.size() > before ? flow() : found;
 }
 
 /// Moves boundaries on to the image.
@@ -178,8 +233,8 @@ LayerBoundaries extract_in_image(const LabelRun& run, Index layer,
   GridMemberships memberships =
       without_image(run, voxels, labels, starts_from_labels ? kBeforeNet : SmoothOptions{});
   if (!starts_from_labels) {
-    memberships =
-        flowed(run, memberships, {voxels.size, voxels.spacing, labels}, edges, found.converged);
+    memberships = flowed(run, layer, memberships, {voxels.size, voxels.spacing, labels}, edges,
+                         found.converged);
   }
   if (run.makes_mesh()) found.image = label_image(memberships, voxels);
   found.partition = extract(run, layer, memberships);
