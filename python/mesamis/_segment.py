@@ -86,9 +86,9 @@ def segment(
     else:
         refuse("labels alone", {"modality": modality, "series": series or None, **numbers})
         axes = "ijk"
-        labels = _labels_alone(labels, resample, {"affine": affine, "spacing": spacing, **place})
         if is_path(labels):
             of_labels = {"spacing": spacing_list(spacing), "resample": bool(resample)}
+        alone = _labels_alone(labels, resample, {"affine": affine, "spacing": spacing, **place})
     arguments = {
         **of_labels,
         "settings": to_json(settings),
@@ -100,7 +100,7 @@ def segment(
         "seeds": _seed_list(seeds),
         "mask": _marks(mask, marks_scan, axes),
         "remove": remove if remove == "body" else _marks(remove, marks_scan, axes),
-        "labels": _marks(labels, marks_scan, axes),
+        "labels": alone if volume is None else _marks(labels, marks_scan, axes),
         "label": _label_list(label),
         "label_names": _label_names(label_names),
         "margin": margin,

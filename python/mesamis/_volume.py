@@ -160,6 +160,8 @@ def _with_affine(array, affine, order="ijk", unit_mm=1.0, modality=""):
     matrix = np.asarray(affine, dtype=float)
     if matrix.shape != (4, 4):
         raise _core.InputError(f"affine: expected a matrix of 4 x 4, found shape {matrix.shape}")
+    if not np.array_equal(matrix[3], (0, 0, 0, 1)):
+        raise _core.InputError(f"affine: expected 0, 0, 0, 1 as the last row, found {matrix[3].tolist()}")
     return _core.scan_with_affine(_samples(array, order), matrix.ravel().tolist(), unit_mm, modality)
 
 

@@ -180,6 +180,7 @@ def test_labels_follow_the_order_of_the_scan(samples):
     assert np.array_equal(one.objects[0].points, other.objects[0].points)
 
 
+@pytest.mark.filterwarnings("ignore:the file's spacing")
 def test_labels_alone_give_the_same_bytes_whatever_they_are_given_as(nifti, samples, tmp_path):
     import nibabel
 

@@ -193,7 +193,8 @@ def test_time_limit(ball):
     "arguments, message",
     [
         ({"affine": np.eye(3)}, "affine: expected a matrix of 4 x 4"),
-        ({"affine": np.zeros((4, 4))}, "expected a positive voxel spacing"),
+        ({"affine": np.diag([0, 0, 0, 1])}, "expected a positive voxel spacing"),
+        ({"affine": np.array([[1, 0, 0, 5], [0, 1, 0, 6], [0, 0, 1, 7], [0, 0, 0, 1]]).T}, "as the last row, found"),
         ({"affine": np.array([[1, 1, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]])}, "orthogonal"),
         ({"affine": np.eye(4), "spacing": 1}, "without spacing"),
         ({}, "expected affine or spacing beside an array"),
