@@ -426,7 +426,8 @@ def segment(
     labels, label, label_names, margin, mesh
         A label map (path, image, or array of the scan's shape) that says which objects are meant;
         which of them, by name or number; their names, {number: name} or a path; how far they may be
-        wrong, mm; whether to make a mesh too. The result is then a `LabelResult`.
+        wrong, mm; whether to make a mesh too. The result is then a `LabelResult`. Without `volume`, an
+        array needs `affine` or `spacing`, and of a path `spacing` and `resample` are as of a scan's.
     tissue, mask, seeds, box, remove, keep_surroundings
         Which object is meant: a tissue ("bone", "airway", ..., "LO:HI"); a label map around it; points
         (mm, in the frame) of its islands; the part of the scan, ((x0, x1), (y0, y1), (z0, z1)), mm;
