@@ -204,5 +204,26 @@ TEST(MissingObjects, AreNamedAndNoneAtAllIsRefused) {
   EXPECT_EQ(found[0].segment, hip);
 }
 
+TEST(ChangedVolumes, AreToldOfSurfacesThatHoldMuchLessOrMoreThanTheirLabels) {
+  LabelMap map;
+  map.size = {10, 10, 10};
+  map.spacing = {1, 2, 0.5};
+  map.segments = {{"hip", 4, 0, {}}, {"bone", 5, 0, {}}};
+  const TriMesh box = level_set({{0, 0, 0}, {4, 5, 6}}, {3, 3, 3}, [](const Vec3&) { return 1.0; });
+  // Voxels of 1 mm^3 and a surface of 120: 72 and 200 are the limits.
+  for (const int voxels : {26, 71, 73, 199, 201}) {
+    map.layers = {std::vector<std::uint16_t>(1000, 0)};
+    std::fill_n(map.layers[0].begin(), voxels, std::uint16_t{4});
+    LabelResult result;
+    result.objects.push_back({map.segments[0], box, {}, 0});
+    const auto warnings = changed_volumes(result, map);
+    ASSERT_EQ(warnings.size(), voxels == 71 || voxels == 201 ? 1U : 0U) << voxels;
+    if (voxels == 201) {
+      EXPECT_EQ(warnings[0],
+                "labels: the surface of 'hip' holds 0.12 cm^3, the voxels of its label 0.201 cm^3");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mesamis

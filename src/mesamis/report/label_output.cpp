@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/report/centre_faces.h"
 #include "mesamis/report/line_crossing.h"
+#include "mesamis/surface/measure.h"
 
 namespace mesamis::detail::report {
 namespace {
@@ -20,6 +22,9 @@ constexpr double kAside = 1.1e-6;
 /// Of a voxel: how far from centres a face on them lies, beside the rounding of single precision.
 constexpr double kHair = 1e-3;
 constexpr double kMostHair = 0.1;
+/// Of the volume of a label, by the surface of one that is shown well.
+constexpr double kVolumeKept = 0.6;
+constexpr std::int64_t kFewVoxels = 27;
 
 /// Which voxels an object gets.
 enum class Marks {
@@ -148,6 +153,36 @@ std::vector<std::string> missing_objects(const LabelResult& result,
     const bool found = std::any_of(result.objects.begin(), result.objects.end(),
                                    [&](const LabelledObject& o) { return o.segment == s; });
     if (!found) warnings.push_back("labels: nothing was found of '" + s.name + "'");
+  }
+  return warnings;
+}
+
+std::vector<std::string> changed_volumes(const LabelResult& result, const LabelMap& map) {
+  std::vector<std::vector<std::int64_t>> voxels;  // of each layer's labels
+  for (const std::vector<std::uint16_t>& layer : map.layers) {
+    voxels.emplace_back(std::size_t{kMaxLabel} + 1, 0);
+    for (const std::uint16_t label : layer) ++voxels.back()[label];
+  }
+  std::vector<std::string> warnings;
+  for (const LabelledObject& object : result.objects) {
+    const Segment& s = object.segment;
+    const std::int64_t count =
+        voxels[static_cast<std::size_t>(s.layer)][static_cast<std::size_t>(s.label)];
+    double volume = 0;
+    for (std::size_t t = 0; t < object.surface.triangles.size(); ++t) {
+      volume += surface::cone_volume(object.surface, t);
+    }
+    const Vec3& h = map.spacing;
+    const double expected = static_cast<double>(count) * h.x * h.y * h.z;
+    if (count < kFewVoxels ||
+        (volume >= kVolumeKept * expected && kVolumeKept * volume <= expected)) {
+      continue;
+    }
+    std::ostringstream text;
+    text.precision(3);
+    text << "labels: the surface of '" << s.name << "' holds " << volume / 1000
+         << " cm^3, the voxels of its label " << expected / 1000 << " cm^3";
+    warnings.push_back(text.str());
   }
   return warnings;
 }

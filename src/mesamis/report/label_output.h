@@ -26,6 +26,14 @@ std::vector<FoundObject> found_objects(const LabelResult& result);
 std::vector<std::string> missing_objects(const LabelResult& result,
                                          std::span<const Segment> wanted);
 
+/// One warning per object whose surface holds less than 0.6 times what the voxels of its label
+/// hold, or that much more: as where the label lies partly beyond the scan, the image contradicts
+/// it, or thin parts were joined. Labels of less than 27 voxels are left out.
+/// @param map  that the objects are labels of.
+///
+/// O(voxels * layers + triangles).
+std::vector<std::string> changed_volumes(const LabelResult& result, const LabelMap& map);
+
 /// Marks the voxels whose centres lie inside of closed surfaces.
 ///
 /// Along each line of voxels the surface is crossed inward and outward; a centre is inside where

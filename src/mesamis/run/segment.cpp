@@ -52,6 +52,7 @@ void run_several(const Request& request, const LabelChoice& choice, const Listen
                                         request.settings, listener.progress)
                         : surfaces_of_labels(labels, request.settings, listener.progress);
   add_warnings(listener, outcome, missing_objects(*outcome.several, outcome.wanted));
+  add_warnings(listener, outcome, changed_volumes(*outcome.several, choice.map));
 }
 
 /// The surface of elements in the place of the one that they were made for, with its errors.
