@@ -17,22 +17,24 @@ def _marks(image, scan, order):
     """A path, or a scan whose samples are labels; None stays None."""
     if image is None or is_path(image):
         return None if image is None else os.fspath(image)
-    if isinstance(image, np.ndarray) and scan is not None:
+    if isinstance(image, np.ndarray):
+        if scan is None:
+            raise _core.InputError("labels: expected a scan beside an array of labels, found none")
         return labels_on(scan, image, order)
     return scan_of(image)[0]
 
 
-def _labels_alone(labels, resample, place):
-    """A path, or a scan whose samples are labels, where there is no other; None stays None."""
+def _labels_alone(labels, affine, spacing, resample, place):
+    """Arguments: a path and how it is read, or a scan whose samples are labels; None stays None."""
     if labels is None:
-        return None
+        return {}
     if is_path(labels):
-        refuse("labels of a path", {**place, "spacing": None})
-        return os.fspath(labels)
+        refuse("labels of a path", {"affine": affine, **place})
+        return {"labels": os.fspath(labels), "spacing": spacing_list(spacing), "resample": bool(resample)}
     refuse("labels of an array or an image", {"resample": resample or None})
-    if isinstance(labels, np.ndarray) and place["affine"] is None and place["spacing"] is None:
+    if isinstance(labels, np.ndarray) and affine is None and spacing is None:
         raise _core.InputError("labels: expected a scan, affine or spacing beside an array, found none")
-    return scan_of(labels, **place)[0]
+    return {"labels": scan_of(labels, affine, spacing, **place)[0]}
 
 
 def _box_text(box):
@@ -71,7 +73,7 @@ def segment(
     box=None, remove=None, keep_surroundings=False, frame="lps", preset="default", settings_file=None,
     series=None, resample=False, volume_number=None, channel=None, padding=None, progress=None, threads=0, memory=0, time_limit=None, **settings,
 ):
-    marks_scan, ours, of_labels = None, False, {}
+    marks_scan, ours = None, False
     place = {"origin": origin, "direction": direction, "order": order}
     numbers = {"volume_number": volume_number, "channel": channel}
     of_paths = {"series": series or None, "resample": resample or None, **numbers}
@@ -86,9 +88,10 @@ def segment(
     else:
         refuse("labels alone", {"modality": modality, "series": series or None, **numbers})
         axes = "ijk"
-        if is_path(labels):
-            of_labels = {"spacing": spacing_list(spacing), "resample": bool(resample)}
-        alone = _labels_alone(labels, resample, {"affine": affine, "spacing": spacing, **place})
+    if volume is None:
+        of_labels = _labels_alone(labels, affine, spacing, resample, place)
+    else:
+        of_labels = {"labels": _marks(labels, marks_scan, axes)}
     arguments = {
         **of_labels,
         "settings": to_json(settings),
@@ -100,7 +103,6 @@ def segment(
         "seeds": _seed_list(seeds),
         "mask": _marks(mask, marks_scan, axes),
         "remove": remove if remove == "body" else _marks(remove, marks_scan, axes),
-        "labels": alone if volume is None else _marks(labels, marks_scan, axes),
         "label": _label_list(label),
         "label_names": _label_names(label_names),
         "margin": margin,

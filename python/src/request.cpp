@@ -72,7 +72,7 @@ CallRequest request_of(const Arguments& a) {
   r.frame = frame_of(a.get<std::string>("frame", "lps"));
   r.tissue = a.get<std::string>("tissue");
   r.box = a.get<std::string>("box");
-  r.seeds = a.get<std::vector<std::array<double, 3>>>("seeds");
+  r.seeds = a.get<std::vector<Vector>>("seeds");
   r.mask = source_of(a, "mask");
   r.remove_body =
       py::isinstance<py::str>(a.object("remove")) && a.get<std::string>("remove") == "body";
@@ -86,9 +86,7 @@ CallRequest request_of(const Arguments& a) {
   }
   r.margin = a.find<double>("margin");
   r.time_limit = a.find<double>("time_limit");
-  if (const auto spacing = a.find<std::array<double, 3>>("spacing")) {
-    r.spacing = Vec3{(*spacing)[0], (*spacing)[1], (*spacing)[2]};
-  }
+  if (const auto spacing = a.find<Vector>("spacing")) r.spacing = vec(*spacing);
   r.resample = a.get<bool>("resample");
   r.keep_surroundings = a.get<bool>("keep_surroundings");
   r.padding = parse_padding(a.get<std::string>("padding", "auto"));
@@ -119,9 +117,7 @@ ObjectRequest object_request(const CallRequest& r, const VoxelGrid& grid,
   ObjectRequest request;
   request.crop = r.settings.crop;
   if (!r.tissue.empty()) request.tissue = parse_tissue(r.tissue);
-  for (const auto& seed : r.seeds) {
-    request.seeds.push_back(in_frame({seed[0], seed[1], seed[2]}, r.frame));
-  }
+  for (const Vector& seed : r.seeds) request.seeds.push_back(in_frame(vec(seed), r.frame));
   const LabelOptions how = label_options(r, &grid);
   if (r.mask) request.mask = labels_of(*r.mask, how, warnings);
   request.padding = r.padding;

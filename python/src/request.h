@@ -88,7 +88,7 @@ struct CallRequest {
   Settings settings;
   Frame frame = Frame::kLps;
   std::string tissue, box;
-  std::vector<std::array<double, 3>> seeds;  ///< in the frame, mm
+  std::vector<Vector> seeds;  ///< in the frame, mm
   std::optional<LabelSource> mask, remove, labels;
   std::vector<std::string> chosen;                   ///< names or numbers of labels; empty: all
   std::vector<std::pair<Index, std::string>> names;  ///< of labels

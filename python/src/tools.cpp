@@ -31,7 +31,6 @@ namespace {
 
 using namespace py::literals;
 using Size = std::array<Index, 3>;
-using Vector = std::array<double, 3>;
 
 // ---- decimate
 
@@ -230,7 +229,7 @@ std::shared_ptr<Scan> phantom_scan(const std::string& name, const Size& size, co
   degrade_as.seed = wanted.get<std::uint64_t>("seed");
   const auto scan = scan_of(released({py::none(), 0}, [&](const Progress&) {
     require_valid(degrade_as);
-    const Phantom phantom = make_phantom(name, size, {spacing[0], spacing[1], spacing[2]});
+    const Phantom phantom = make_phantom(name, size, vec(spacing));
     return degrade(sample_phantom(phantom, samples), degrade_as);
   }));
   scan->format = "phantom " + name;
@@ -239,7 +238,7 @@ std::shared_ptr<Scan> phantom_scan(const std::string& name, const Size& size, co
 
 py::tuple phantom_surface(const std::string& name, const Size& size, const Vector& spacing) {
   PhantomTruth truth = released({py::none(), 0}, [&](const Progress&) {
-    return make_truth(make_phantom(name, size, {spacing[0], spacing[1], spacing[2]}));
+    return make_truth(make_phantom(name, size, vec(spacing)));
   });
   return py::make_tuple(array_of<double>(std::move(truth.surface.points)),
                         array_of<Index>(std::move(truth.surface.triangles)), truth.error.max);

@@ -21,9 +21,6 @@
 namespace mesamis::python {
 namespace {
 
-using Vector = std::array<double, 3>;
-
-Vec3 vec(const Vector& v) { return {v[0], v[1], v[2]}; }
 Vector list(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 /// Not orthonormal by more than rounding: as for a file's axes, the nearest that are.

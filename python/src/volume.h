@@ -3,6 +3,7 @@
 
 #include <pybind11/numpy.h>
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -18,6 +19,10 @@
 namespace mesamis::python {
 
 namespace py = pybind11;
+
+/// Three numbers of Python, and the library's.
+using Vector = std::array<double, 3>;
+inline Vec3 vec(const Vector& v) { return {v[0], v[1], v[2]}; }
 
 /// A scan of Python: a NumPy array that is read in place, or samples of its own.
 struct Scan {

@@ -212,6 +212,8 @@ def test_labels_of_an_array_alone_need_a_place(samples):
         mesamis.segment(labels=labels)
     with pytest.raises(mesamis.InputError, match="without resample"):
         mesamis.segment(labels=labels, spacing=1, resample=True)
+    with pytest.raises(mesamis.InputError, match="expected a scan beside an array of labels, found none"):
+        mesamis.segment(labels=labels, spacing=1, mask=labels)
 
 
 @pytest.mark.parametrize("name, value", [("affine", np.eye(4)), ("spacing", 1), ("origin", (0, 0, 0)),

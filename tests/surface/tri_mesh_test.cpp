@@ -29,6 +29,12 @@ TEST(SurfaceArea, IsThatOfTheCheck) {
   EXPECT_EQ(surface_area({}), 0);
 }
 
+TEST(SurfaceVolume, IsThatOfTheCheck) {
+  const TriMesh whole = cube({1, 2, 3}, 2);
+  EXPECT_EQ(surface_volume(whole), check_surface(whole).volume);
+  EXPECT_EQ(surface_volume({}), 0);
+}
+
 TEST(CheckSurface, KeepsTheVolumeFarFromTheOrigin) {
   EXPECT_NEAR(check_surface(cube({1e6, -1e6, 1e6}, 1)).volume, 1, 1e-9);
 }

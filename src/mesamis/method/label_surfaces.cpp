@@ -143,12 +143,6 @@ std::vector<LabelBoundary> boundaries_of(const LabelRun& run, Index layer,
   return found;
 }
 
-/// What the image shows at the boundaries between labels.
-std::vector<PairLevel> pairs_at(const LabelRun& run, Index layer, const GridMemberships& labels,
-                                const Edges& edges) {
-  return measure_pair_levels(extract(run, layer, labels), RunInput(edges.prepared).image);
-}
-
 /// Whether a boundary has left its edge: the image shows less there than where it was.
 bool has_left(const PairLevel& before, const std::vector<PairLevel>& after) {
   const auto same = std::find_if(after.begin(), after.end(),
@@ -174,31 +168,34 @@ std::vector<char> labels_lost(const LabelGrid& grid, const GridMemberships& flow
 
 /// The labels flow to the edges of the image, but where it shows none between two, and where they
 /// would leave it or lose more than half: there they stay.
-GridMemberships flowed(const LabelRun& run, Index layer, const GridMemberships& smooth,
-                       const LabelGrid& grid, const Edges& edges, bool& converged) {
-  const Parameters& p = edges.prepared.parameters;
+/// @param found  of a layer: gets the boundaries, and whether the flow has converged.
+GridMemberships flow_to_edges(const LabelRun& run, const GridMemberships& smooth,
+                              const LabelGrid& grid, const Edges& edges, LayerBoundaries& found) {
+  const RunInput input(edges.prepared);
+  const Parameters& p = input.parameters;
   const FlowOptions how{p.functional.beta, p.functional.eta, p.unit_mm, kReach * run.margin};
-  std::vector<LabelPair> unseen;
-  const auto flow = [&] {
-    const auto weight = label_confidence(grid, run.margin, unseen);
-    FlowReport solved;
-    GridMemberships found = flow_memberships(grid, {smooth, weight, edges.v}, how, &solved);
-    converged = solved.solver_converged;
-    return found;
-  };
   std::vector<PairLevel> seen;
-  const double noise = RunInput(edges.prepared).noise;
-  for (const PairLevel& pair : pairs_at(run, layer, smooth, edges)) {
-    if (shows_edge(pair, noise)) {
+  std::vector<LabelPair> unseen;
+  for (const PairLevel& pair :
+       measure_pair_levels(extract(run, found.layer, smooth), input.image)) {
+    if (shows_edge(pair, input.noise)) {
       seen.push_back(pair);
     } else {
       unseen.push_back(pair.sides);
     }
   }
-  GridMemberships found = flow();
-  const std::vector<PairLevel> after = pairs_at(run, layer, found, edges);
+  const auto flow = [&] {
+    const auto weight = label_confidence(grid, run.margin, unseen);
+    FlowReport solved;
+    GridMemberships flowed = flow_memberships(grid, {smooth, weight, edges.v}, how, &solved);
+    found.converged = solved.solver_converged;
+    found.partition = extract(run, found.layer, flowed);
+    return flowed;
+  };
+  GridMemberships flowed = flow();
+  const std::vector<PairLevel> after = measure_pair_levels(found.partition, input.image);
+  const std::vector<char> lost = labels_lost(grid, flowed);
   const std::size_t before = unseen.size();
-  const std::vector<char> lost = labels_lost(grid, found);
   for (const PairLevel& pair : seen) {
     const auto [one, other] = pair.sides;
     if (has_left(pair, after) || lost[static_cast<std::size_t>(one)] != 0 ||
@@ -206,7 +203,8 @@ GridMemberships flowed(const LabelRun& run, Index layer, const GridMemberships& 
       unseen.push_back(pair.sides);
     }
   }
-  return unseen.size() > before ? flow() : found;
+  if (unseen.size() > before) flowed = flow();
+  return flowed;
 }
 
 /// Moves boundaries on to the image.
@@ -232,16 +230,15 @@ LayerBoundaries extract_in_image(const LabelRun& run, Index layer,
   const bool starts_from_labels = run.starts_from_labels(voxels);
   GridMemberships memberships =
       without_image(run, voxels, labels, starts_from_labels ? kBeforeNet : SmoothOptions{});
-  if (!starts_from_labels) {
-    memberships = flowed(run, layer, memberships, {voxels.size, voxels.spacing, labels}, edges,
-                         found.converged);
-  }
-  if (run.makes_mesh()) found.image = label_image(memberships, voxels);
-  found.partition = extract(run, layer, memberships);
   if (starts_from_labels) {
+    found.partition = extract(run, layer, memberships);
     found.volumes =
         volumes_of(label_eighths({voxels.size, voxels.spacing, labels}), voxels.spacing);
+  } else {
+    const LabelGrid grid{voxels.size, voxels.spacing, labels};
+    memberships = flow_to_edges(run, memberships, grid, edges, found);
   }
+  if (run.makes_mesh()) found.image = label_image(memberships, voxels);
   return found;
 }
 

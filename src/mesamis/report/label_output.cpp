@@ -12,7 +12,6 @@
 #include "mesamis/base/parallel.h"
 #include "mesamis/report/centre_faces.h"
 #include "mesamis/report/line_crossing.h"
-#include "mesamis/surface/measure.h"
 
 namespace mesamis::detail::report {
 namespace {
@@ -24,7 +23,7 @@ constexpr double kHair = 1e-3;
 constexpr double kMostHair = 0.1;
 /// Of the volume of a label, by the surface of one that is shown well.
 constexpr double kVolumeKept = 0.6;
-constexpr std::int64_t kFewVoxels = 27;
+constexpr std::size_t kFewVoxels = 27;
 
 /// Which voxels an object gets.
 enum class Marks {
@@ -158,29 +157,19 @@ std::vector<std::string> missing_objects(const LabelResult& result,
 }
 
 std::vector<std::string> changed_volumes(const LabelResult& result, const LabelMap& map) {
-  std::vector<std::vector<std::int64_t>> voxels;  // of each layer's labels
-  for (const std::vector<std::uint16_t>& layer : map.layers) {
-    voxels.emplace_back(std::size_t{kMaxLabel} + 1, 0);
-    for (const std::uint16_t label : layer) ++voxels.back()[label];
-  }
+  const std::vector<std::size_t> voxels = voxel_counts(map);
+  const double of_voxel = map.spacing.x * map.spacing.y * map.spacing.z;
   std::vector<std::string> warnings;
   for (const LabelledObject& object : result.objects) {
-    const Segment& s = object.segment;
-    const std::int64_t count =
-        voxels[static_cast<std::size_t>(s.layer)][static_cast<std::size_t>(s.label)];
-    double volume = 0;
-    for (std::size_t t = 0; t < object.surface.triangles.size(); ++t) {
-      volume += surface::cone_volume(object.surface, t);
-    }
-    const Vec3& h = map.spacing;
-    const double expected = static_cast<double>(count) * h.x * h.y * h.z;
-    if (count < kFewVoxels ||
-        (volume >= kVolumeKept * expected && kVolumeKept * volume <= expected)) {
-      continue;
-    }
+    const auto segment = std::find(map.segments.begin(), map.segments.end(), object.segment);
+    const std::size_t count = voxels[static_cast<std::size_t>(segment - map.segments.begin())];
+    const double expected = static_cast<double>(count) * of_voxel,
+                 volume = surface_volume(object.surface);
+    const bool is_kept = volume >= kVolumeKept * expected && kVolumeKept * volume <= expected;
+    if (count < kFewVoxels || is_kept) continue;
     std::ostringstream text;
     text.precision(3);
-    text << "labels: the surface of '" << s.name << "' holds " << volume / 1000
+    text << "labels: the surface of '" << object.segment.name << "' holds " << volume / 1000
          << " cm^3, the voxels of its label " << expected / 1000 << " cm^3";
     warnings.push_back(text.str());
   }

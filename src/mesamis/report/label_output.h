@@ -29,7 +29,7 @@ std::vector<std::string> missing_objects(const LabelResult& result,
 /// One warning per object whose surface holds less than 0.6 times what the voxels of its label
 /// hold, or that much more: as where the label lies partly beyond the scan, the image contradicts
 /// it, or thin parts were joined. Labels of less than 27 voxels are left out.
-/// @param map  that the objects are labels of.
+/// @param map  whose segments the objects are.
 ///
 /// O(voxels * layers + triangles).
 std::vector<std::string> changed_volumes(const LabelResult& result, const LabelMap& map);

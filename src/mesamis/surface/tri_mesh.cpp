@@ -82,12 +82,14 @@ SurfaceCheck check_surface(const TriMesh& surface) {
   check.nonmanifold_points = std::ranges::count(
       points_of_several_fans(surface.triangles, half_edges, surface.points.size()), 1);
   count_components(surface, half_edges, check);
-  check.volume = sum_over_triangles(surface, cone_volume);
+  check.volume = surface_volume(surface);
   check.area = surface_area(surface);
   return check;
 }
 
 double surface_area(const TriMesh& surface) { return sum_over_triangles(surface, triangle_area); }
+
+double surface_volume(const TriMesh& surface) { return sum_over_triangles(surface, cone_volume); }
 
 std::string flaws_of(const SurfaceCheck& check) {
   const std::array<std::pair<std::int64_t, const char*>, 5> counts{

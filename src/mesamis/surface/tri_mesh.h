@@ -61,6 +61,13 @@ SurfaceCheck check_surface(const TriMesh& surface);
 /// O(n) for n triangles. The same bits for any number of threads.
 double surface_area(const TriMesh& surface);
 
+/// Measures the volume within a surface.
+/// @param surface  sound, see require_sound(), and closed; mm.
+/// @return mm^3, negative if it faces inward; the bits of SurfaceCheck::volume.
+///
+/// O(n) for n triangles. The same bits for any number of threads.
+double surface_volume(const TriMesh& surface);
+
 /// Why a surface is not closed or not a 2-manifold, as "3 open edges, 1 points ..."; "" if it is.
 std::string flaws_of(const SurfaceCheck& check);
 
