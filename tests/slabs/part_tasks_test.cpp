@@ -22,7 +22,10 @@ TEST_F(ListParts, AddUpToThoseOfTheWhole) {
   EXPECT_NEAR(parts.sizes[0].volume / check.volume, 1, 1e-9);
   EXPECT_NEAR(parts.sizes[0].area / check.area, 1, 1e-9);
   EXPECT_NEAR(parts.mean_error / expected_shape_error(slabs.mesh->input, whole).mean, 1, 1e-9);
-  for (const auto& of_slab : parts.of_slab) EXPECT_EQ(of_slab, std::vector<Index>{0});
+  for (const auto& of_slab : parts.of_slab) {
+    EXPECT_FALSE(of_slab.empty());
+    for (const Index part : of_slab) EXPECT_EQ(part, 0);  // a slab may hold it in pieces
+  }
   EXPECT_GT(parts.shift, 0);
   EXPECT_LT(parts.shift, 1e-5) << "mm";
   EXPECT_EQ(slabs.run->choice.goes, std::vector<char>{0});

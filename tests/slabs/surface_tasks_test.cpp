@@ -31,6 +31,8 @@ using SurfaceTasks = OnMeshedSlabs;
 
 TEST_F(ExtractSlab, PiecesFitAndAreTheSurfaceOfTheWholeMesh) {
   ThreeSlabs slabs;
+  slabs.mesh->prepared.parameters.fit =
+      false;  // nodes at borders could not be moved onto the surface
   slabs.extract();
   const SurfacePiece joined = slabs.extracted();
   const TriMesh surface = mesh_of(joined, &detail::slabs::SurfacePoint::key),
@@ -40,6 +42,19 @@ TEST_F(ExtractSlab, PiecesFitAndAreTheSurfaceOfTheWholeMesh) {
   EXPECT_EQ(surface.triangles.size(), whole.triangles.size());
   EXPECT_NEAR(check_surface(surface).volume / check_surface(whole).volume, 1, 1e-9);
   EXPECT_LT(max_distance(surface, whole, 1e-9), 1e-6);
+}
+
+TEST_F(ExtractSlab, PiecesFitWhereNodesWereMovedOntoTheSurface) {
+  ThreeSlabs slabs;
+  slabs.extract();
+  const TriMesh surface = mesh_of(slabs.extracted(), &detail::slabs::SurfacePoint::key),
+                whole = slabs.whole_surface();
+  slabs.mesh->prepared.parameters.fit = false;
+  EXPECT_EQ(solid_flaws_of(check_surface(surface)), "");
+  EXPECT_TRUE(find_self_intersections(surface).empty());
+  EXPECT_LT(surface.points.size(), 0.9 * static_cast<double>(slabs.whole_surface().points.size()));
+  EXPECT_LT(static_cast<double>(surface.points.size()),
+            1.03 * static_cast<double>(whole.points.size()));
 }
 
 // Else the surface would have a crack there.

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "mesamis/method/deliver.h"
 #include "mesamis/slabs/mapped_items.h"
 #include "mesamis/slabs/surface_files.h"
-#include "mesamis/surface/extract.h"
 #include "slabs/small_run.h"
 
 namespace mesamis {
@@ -18,6 +18,7 @@ namespace mesamis {
 inline Settings finished_settings() {
   Settings settings = quick_settings();
   settings.drafts = false;
+  settings.max_tets = 20'000;
   return settings;
 }
 
@@ -78,7 +79,8 @@ struct ThreeSlabs {
   TriMesh whole_surface() const {
     const Piece whole = collect(*mesh, 1);
     const Parameters& p = mesh->input.parameters;
-    return extract_solid(whole.mesh, values_of(whole, &NodeValues::u), p.grey.to_grey(p.level));
+    return extract_solid(whole.mesh, values_of(whole, &NodeValues::u), p.grey.to_grey(p.level),
+                         solid_options(mesh->input));
   }
   SurfacePiece extracted() const {
     std::vector<SurfacePiece> pieces;

@@ -8,10 +8,11 @@
 #include "mesamis/method/choose.h"
 #include "mesamis/method/expected_error.h"
 #include "mesamis/method/follow_image.h"
-#include "mesamis/surface/extract.h"
 
 namespace mesamis::detail::method {
 namespace {
+
+constexpr double kSnapped = 0.06;  // voxels that crossings may be left by
 
 TriMesh followed(const RunInput& run, TriMesh extracted) {
   const Parameters& p = run.parameters;
@@ -25,6 +26,14 @@ void bring_surface_to_world(const RunInput& run, TriMesh& surface) {
 }
 
 }  // namespace
+
+SolidOptions solid_options(const RunInput& run) {
+  const Parameters& p = run.parameters;
+  SolidOptions options;
+  options.box = run.box;
+  if (p.fit) options.snap = kSnapped * run.grey.voxel_size() / p.unit_mm;
+  return options;
+}
 
 void turn_as_grid(const RunInput& run, TriMesh& surface) {
   if (determinant(run.grey.direction) >= 0) return;
@@ -48,7 +57,8 @@ void deliver_loop(const RunInput& run, Loop loop, const Progress& progress, Resu
     bring_surface_to_world(run, result.surface);
     result.seconds.surface = watch.lap();
   } else {
-    TriMesh extracted = extract_solid(mesh, loop.minimum.u, p.grey.to_grey(p.level));
+    TriMesh extracted =
+        extract_solid(mesh, loop.minimum.u, p.grey.to_grey(p.level), solid_options(run));
     result.seconds.surface = watch.lap();
     deliver_surface(run, std::move(extracted), result);
   }

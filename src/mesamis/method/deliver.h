@@ -4,9 +4,14 @@
 #include "mesamis/method/loop.h"
 #include "mesamis/method/mes_amis.h"
 #include "mesamis/method/passes.h"
+#include "mesamis/surface/extract.h"
 
 /// From what a run has found to what it delivers.
 namespace mesamis::detail::method {
+
+/// How a solid is extracted from a run's mesh: what is fitted to the image needs no more triangles
+/// than tell a sixteenth of a voxel.
+SolidOptions solid_options(const RunInput& run);
 
 /// Takes a solid in length units over into a result: it follows the image where that is
 /// more exact than the mesh; then it lies in the world frame, where a left-handed grid turns every

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "mesamis/method/deliver.h"
 #include "mesamis/method/follow_image.h"
 #include "mesamis/slabs/mesh_files.h"
 #include "mesamis/slabs/point_numbers.h"
@@ -184,9 +185,8 @@ Piece final_mesh(const SurfaceRun& run, Index s, SlabWork& work) {
 SlabWork extract_slab(const SurfaceRun& run, Index s) {
   SlabWork work;
   const Piece own = final_mesh(run, s, work);
-  SolidOptions options;
-  options.box = run.mesh.input.box;
-  TriMesh surface = extract_solid(own.mesh, values_of(own, &NodeValues::u), level_of(run), options);
+  TriMesh surface = extract_solid(own.mesh, values_of(own, &NodeValues::u), level_of(run),
+                                  solid_options(run.mesh.input));
   FollowCounts counts;
   if (run.mesh.input.parameters.follow) {
     counts = look_along(surface, run.mesh.input.image, follow_options(run));

@@ -20,6 +20,9 @@ struct SolidOptions {
   /// Where the object's surface crosses the edge from a to b (mm), 0 at a to 1 at b; none: where
   /// the linear function does. For a function that is known between the nodes. Called in threads.
   std::function<double(const Vec3& a, const Vec3& b)> crossing{};
+  /// Where > 0, crossings become one point that keeps so near to them, see snap_nodes(); unit of the
+  /// mesh.
+  double snap = 0;
 };
 
 /// Crossings keep this distance from an edge's ends, relative to the edge: they stay distinct,

@@ -10,6 +10,7 @@
 #include "mesamis/surface/box_planes.h"
 #include "mesamis/surface/cell_cuts.h"
 #include "mesamis/surface/extract.h"
+#include "mesamis/surface/snap_nodes.h"
 
 namespace mesamis::detail::surface {
 namespace {
@@ -30,6 +31,7 @@ class Marcher {
  public:
   Marcher(const TetMesh& mesh, std::span<const double> u, double level, const SolidOptions& options)
       : mesh_(mesh), u_(u), level_(level) {
+    if (options.snap > 0) snapped_ = snap_nodes(mesh, u, level, options.snap);
     if (!options.close_at_box) return;
     planes_ = box_planes(mesh, options.box ? *options.box : bounding_box(mesh.points));
   }
@@ -37,8 +39,8 @@ class Marcher {
   /// The surface's position at a site.
   Vec3 position(Site site) const {
     const Index a = site_begin(site), b = site_end(site);
+    if (a == b) return snapped_.points.empty() ? mesh_.points[a] : snapped_.points[a];
     const Vec3& p = mesh_.points[a];
-    if (a == b) return p;
     // Halves, since the difference of two large values may overflow.
     const double t = (0.5 * level_ - 0.5 * u_[a]) / (0.5 * u_[b] - 0.5 * u_[a]);
     return p + kept_off_ends(t) * (mesh_.points[b] - p);
@@ -61,20 +63,35 @@ class Marcher {
   }
 
  private:
-  bool inside(Index node) const { return u_[node] > level_; }
+  bool inside(Index node) const { return u_[node] > level_ && !is_snapped(node); }
 
   static std::size_t corner_that_is(bool value, const std::array<bool, 4>& in) {
     return static_cast<std::size_t>(std::find(in.begin(), in.end(), value) - in.begin());
   }
 
   /// The triangle that cuts corner i off, facing away from it, or towards it when flipped.
-  static void cut_corner(const Cell& cell, std::size_t i, bool flipped,
-                         std::vector<SiteTriangle>& out) {
+  void cut_corner(const Cell& cell, std::size_t i, bool flipped,
+                  std::vector<SiteTriangle>& out) const {
     const auto& [j, k, l] = kCellFaces[i];
-    SiteTriangle cut{site_on(cell[i], cell[j]), site_on(cell[i], cell[k]),
-                     site_on(cell[i], cell[l])};
+    SiteTriangle cut{crossing(cell[i], cell[j]), crossing(cell[i], cell[k]),
+                     crossing(cell[i], cell[l])};
     if (flipped) std::swap(cut[1], cut[2]);
-    out.push_back(cut);
+    add(cut, out);
+  }
+
+  /// Of the edge between two nodes, or the node of them that lies on the level set.
+  Site crossing(Index a, Index b) const {
+    if (is_snapped(a)) return site_on(a, a);
+    return is_snapped(b) ? site_on(b, b) : site_on(a, b);
+  }
+
+  bool is_snapped(Index node) const {
+    return !snapped_.on_level.empty() && snapped_.on_level[node] != 0;
+  }
+
+  /// Unless corners became one point.
+  static void add(const SiteTriangle& t, std::vector<SiteTriangle>& out) {
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) out.push_back(t);
   }
 
   /// The quadrilateral between two corners inside and two outside.
@@ -82,8 +99,8 @@ class Marcher {
                 std::vector<SiteTriangle>& out) const {
     for (const auto& [i, j, k, l] : kEvenPairs) {
       if (!in[i] || !in[j]) continue;
-      add_quad({site_on(cell[i], cell[k]), site_on(cell[i], cell[l]), site_on(cell[j], cell[l]),
-                site_on(cell[j], cell[k])},
+      add_quad({crossing(cell[i], cell[k]), crossing(cell[i], cell[l]), crossing(cell[j], cell[l]),
+                crossing(cell[j], cell[k])},
                out);
     }
   }
@@ -107,9 +124,11 @@ class Marcher {
   void add_quad(const std::array<Site, 4>& s, std::vector<SiteTriangle>& out) const {
     const Vec3 d02 = position(s[2]) - position(s[0]), d13 = position(s[3]) - position(s[1]);
     if (dot(d02, d02) <= dot(d13, d13)) {
-      out.insert(out.end(), {{s[0], s[1], s[2]}, {s[0], s[2], s[3]}});
+      add({s[0], s[1], s[2]}, out);
+      add({s[0], s[2], s[3]}, out);
     } else {
-      out.insert(out.end(), {{s[0], s[1], s[3]}, {s[1], s[2], s[3]}});
+      add({s[0], s[1], s[3]}, out);
+      add({s[1], s[2], s[3]}, out);
     }
   }
 
@@ -117,6 +136,7 @@ class Marcher {
   std::span<const double> u_;
   double level_;
   std::vector<std::uint8_t> planes_;  // empty: no caps
+  SnappedNodes snapped_;              // empty: none
 };
 
 Vec3 exact_position(const TetMesh& mesh, Site site,

@@ -31,6 +31,7 @@ set(ROOM_HEADERS
   self_intersections.h
   signed_distance.h
   smooth_memberships.h
+  snap_nodes.h
   split_edges.h
   tri_mesh.h
   triangle_intersection.h
@@ -71,6 +72,7 @@ set(ROOM_SOURCES
   self_intersections.cpp
   signed_distance.cpp
   smooth_memberships.cpp
+  snap_nodes.cpp
   split_edges.cpp
   tri_mesh.cpp
   triangle_intersection.cpp

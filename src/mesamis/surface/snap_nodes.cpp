@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesamis/surface/snap_nodes.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "mesamis/base/each_once.h"
+#include "mesamis/base/parallel.h"
+#include "mesamis/surface/cell_cuts.h"
+#include "mesamis/surface/triangle_tree.h"
+
+namespace mesamis::detail::surface {
+namespace {
+
+/// Of a cell's volume, what it keeps.
+constexpr double kLeastVolume = 0.2;
+
+/// A point of the surface opposite a node: on the edge from a node above the level to one below, or at
+/// a node that was moved, which then comes twice.
+using LinkPoint = std::pair<Index, Index>;
+
+/// Where the surface enters and leaves the face of a cell opposite a node.
+using LinkPiece = std::pair<LinkPoint, LinkPoint>;
+
+class NodeSnapper {
+ public:
+  NodeSnapper(const TetMesh& mesh, std::span<const double> u, double level, double distance)
+      : mesh_(mesh),
+        u_(u),
+        level_(level),
+        distance_(distance),
+        cells_(point_cells(mesh)),
+        snapped_{mesh.points, std::vector<char>(mesh.points.size(), 0)} {}
+
+  SnappedNodes snap() && {
+    for (const auto& [share, node] : nodes_by_share()) snap(node);
+    return std::move(snapped_);
+  }
+
+ private:
+  bool is_above(Index node) const { return u_[node] > level_; }
+  bool is_moved(Index node) const { return snapped_.on_level[node] != 0; }
+  bool is_inside(Index node) const { return is_above(node) && !is_moved(node); }
+
+  /// Of the edge to a node across the level, what lies before the crossing.
+  double share_to(Index node, Index across) const {
+    return kept_off_ends((0.5 * level_ - 0.5 * u_[node]) / (0.5 * u_[across] - 0.5 * u_[node]));
+  }
+  Vec3 crossing(Index node, Index across) const {
+    const Vec3& p = mesh_.points[node];
+    return p + share_to(node, across) * (mesh_.points[across] - p);
+  }
+
+  /// The nodes inside the mesh whose edges cross the level, those with the nearest crossings first.
+  std::vector<std::pair<double, Index>> nodes_by_share() const {
+    auto found = parallel_collect<std::pair<double, Index>>(
+        mesh_.points.size(), kBlock, [&](std::size_t begin, std::size_t end, auto& out) {
+          for (auto node = static_cast<Index>(begin); node < static_cast<Index>(end); ++node) {
+            const Index across = nearest_across(node);
+            if (across != kNoIndex && lies_inside_the_mesh(node)) {
+              out.emplace_back(share_to(node, across), node);
+            }
+          }
+        });
+    std::ranges::sort(found);
+    return found;
+  }
+
+  /// The node whose edge has the nearest crossing; none if no edge has one.
+  Index nearest_across(Index node) const {
+    Index nearest = kNoIndex;
+    for_nodes_across(node, [&](Index other) {
+      if (is_moved(other)) return;
+      if (nearest == kNoIndex || share_to(node, other) < share_to(node, nearest)) nearest = other;
+    });
+    return nearest;
+  }
+
+  template <class Visit>
+  void for_nodes_across(Index node, Visit&& visit) const {
+    for (const Index c : cells_.of(node)) {
+      for (const Index other : mesh_.cells[c]) {
+        if (is_above(other) != is_above(node)) visit(other);
+      }
+    }
+  }
+
+  /// Whether the cells around a node close around it.
+  bool lies_inside_the_mesh(Index node) const {
+    std::vector<std::pair<Index, Index>> edges;
+    for (const Index c : cells_.of(node)) {
+      const Triangle t = face_opposite(c, node);
+      for (std::size_t i = 0; i < 3; ++i) edges.emplace_back(t[i], t[(i + 1) % 3]);
+    }
+    std::ranges::sort(edges);
+    return std::ranges::all_of(edges, [&](const auto& edge) {
+      return std::ranges::binary_search(edges, std::pair{edge.second, edge.first});
+    });
+  }
+
+  Triangle face_opposite(Index c, Index node) const {
+    const Cell& cell = mesh_.cells[c];
+    const auto corner = static_cast<std::size_t>(std::ranges::find(cell, node) - cell.begin());
+    const auto& [i, j, k] = kCellFaces[corner];
+    return {cell[i], cell[j], cell[k]};
+  }
+
+  void snap(Index node) {
+    const Index across = nearest_across(node);
+    if (across == kNoIndex) return;
+    snapped_.points[node] = crossing(node, across);
+    snapped_.on_level[node] = 1;
+    if (keeps_cells(node) && keeps_surface(node)) return;
+    snapped_.points[node] = mesh_.points[node];
+    snapped_.on_level[node] = 0;
+  }
+
+  bool keeps_cells(Index node) const {
+    return std::ranges::all_of(cells_.of(node), [&](Index c) {
+      const auto& [i, j, k, l] = mesh_.cells[c];
+      const auto volume = [&](const std::vector<Vec3>& p) {
+        return six_volume(p[i], p[j], p[k], p[l]);
+      };
+      return volume(snapped_.points) >= kLeastVolume * volume(mesh_.points);
+    });
+  }
+
+  /// Whether the surface around a moved node and around those beside it is still what it was.
+  bool keeps_surface(Index node) {
+    std::vector<Index> changed;
+    for (const Index c : cells_.of(node)) {
+      for (const Index other : mesh_.cells[c]) {
+        if (is_moved(other)) changed.push_back(other);
+      }
+    }
+    sort_once(changed);
+    return std::ranges::all_of(changed,
+                               [&](Index n) { return goes_around_once(n) && stays_near(n); });
+  }
+
+  /// Whether the surface goes around a moved node once: its pieces opposite the node are one closed line
+  /// that passes each of its points once.
+  bool goes_around_once(Index node) {
+    find_pieces(node);
+    if (pieces_.size() < 3) return false;
+    LinkPoint at = pieces_[0].first;
+    for (std::size_t steps = 0; steps < pieces_.size(); ++steps) {
+      if (steps > 0 && at == pieces_[0].first) return false;
+      const auto is_next = [&](const LinkPiece& piece) { return piece.first == at; };
+      if (std::ranges::count_if(pieces_, is_next) != 1) return false;
+      at = std::ranges::find_if(pieces_, is_next)->second;
+    }
+    return at == pieces_[0].first;
+  }
+
+  void find_pieces(Index node) {
+    pieces_.clear();
+    const auto point = [&](Index inside, Index outside) {
+      return LinkPoint{is_moved(outside) ? outside : inside, outside};
+    };
+    for (const Index c : cells_.of(node)) {
+      const Triangle t = face_opposite(c, node);
+      LinkPiece piece{{kNoIndex, kNoIndex}, {kNoIndex, kNoIndex}};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Index a = t[i], b = t[(i + 1) % 3];
+        if (is_inside(a) && !is_inside(b)) piece.first = point(a, b);
+        if (!is_inside(a) && is_inside(b)) piece.second = point(b, a);
+      }
+      if (piece.first != piece.second) pieces_.push_back(piece);
+    }
+  }
+
+  /// Whether what crossed the node's edges lies near the triangles of the pieces found.
+  bool stays_near(Index node) const {
+    const auto place = [&](const LinkPoint& p) {
+      return p.first == p.second ? snapped_.points[p.first] : crossing(p.first, p.second);
+    };
+    const auto is_near = [&](const Vec3& p) {
+      return std::ranges::any_of(pieces_, [&](const LinkPiece& piece) {
+        return squared_distance(p, {snapped_.points[node], place(piece.first),
+                                    place(piece.second)}) <= distance_ * distance_;
+      });
+    };
+    bool near = true;
+    for_nodes_across(node, [&](Index other) { near = near && is_near(crossing(node, other)); });
+    return near;
+  }
+
+  const TetMesh& mesh_;
+  std::span<const double> u_;
+  double level_, distance_;
+  PointCells cells_;
+  SnappedNodes snapped_;
+  std::vector<LinkPiece> pieces_;
+};
+
+}  // namespace
+
+SnappedNodes snap_nodes(const TetMesh& mesh, std::span<const double> u, double level,
+                        double distance) {
+  return NodeSnapper(mesh, u, level, distance).snap();
+}
+
+}  // namespace mesamis::detail::surface
