@@ -139,7 +139,8 @@ TEST(SlabRun, TheGridMayBeCoarserThanTheVoxels) {
   const SlabRunResult run = run_alone(scan, {.slabs = 3, .scratch = folder / "scratch"}, settings);
   expect_sound(run, scan);
   const Rod rod = rod_in(99);
-  EXPECT_LT(mean_distance(run.result, rod), 1.3 * mean_distance(mes_amis(scan, quick_settings()), rod));
+  EXPECT_LT(mean_distance(run.result, rod),
+            1.3 * mean_distance(mes_amis(scan, quick_settings()), rod));
 }
 
 // Where nothing is to be seen, cells are as large as a slab, and belong to pieces of its
