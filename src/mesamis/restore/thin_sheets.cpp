@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/image/gaussian.h"
@@ -138,6 +140,12 @@ struct Finding {
   double gain() const { return std::max(wall.gain, gap.gain); }
 };
 
+/// The same in single precision, of a voxel of a slice: few voxels have one.
+struct FoundAt {
+  std::size_t voxel;  // of the slice
+  float wall, weight, gap, gain;
+};
+
 /// The main direction of the gradients around a voxel and how well they agree.
 struct Direction {
   Vec3 normal;
@@ -214,9 +222,10 @@ class SheetFinder {
     least_ = std::max(kLeastPeak, kPeakOfNoise * left * options.noise / contrast_);
   }
 
-  Finding at(const std::array<Index, 3>& voxel) const {
+  /// @return nothing where no sheet can be.
+  std::optional<Finding> at(const std::array<Index, 3>& voxel) const {
     const double share = share_of(guide_.at(voxel[0], voxel[1], voxel[2]));
-    const Finding none{{0, share > kBright ? 1.0 : 0.0, 1}, {}};
+    const std::optional<Finding> none;
     if (share < kFlank * least_ || share > 1 - kFlank * least_) return none;
     const NearbyRange::Range& near = near_.at(voxel[0], voxel[1], voxel[2]);
     const bool may_be_wall = may_hold_sheet(share_of(near.low), share_of(near.high));
@@ -225,7 +234,7 @@ class SheetFinder {
     const Direction way = direction_at(guide_, voxel);
     const double agree =
         std::clamp((way.planarity - kLeastPlanar) / (kPlanar - kLeastPlanar), 0.0, 1.0);
-    if (agree == 0) return {};
+    if (agree == 0) return Finding{};
     const Vec3& s = guide_.spacing;
     const Vec3 p{voxel[0] * s.x, voxel[1] * s.y, voxel[2] * s.z};
     const Blur blur = blur_along(way.normal);
@@ -370,35 +379,61 @@ class SheetFinder {
   Box within_;
 };
 
+/// What is found of sheets in each slice, by increasing voxel.
+std::vector<std::vector<FoundAt>> find_sheets(const SheetFinder& finder, const VoxelGrid& grid) {
+  const auto [nx, ny, nz] = grid.size;
+  std::vector<std::vector<FoundAt>> slices(static_cast<std::size_t>(nz));
+  parallel_for_each(slices.size(), [&](std::size_t k) {
+    for (std::size_t n = 0; n < static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); ++n) {
+      const auto [i, j, first] = grid.voxel(n);
+      const auto found = finder.at({i, j, first + static_cast<Index>(k)});
+      if (!found) continue;
+      const auto& [wall, gap] = *found;
+      slices[k].push_back(
+          {n, static_cast<float>(wall.weight * wall.rise), static_cast<float>(wall.weight),
+           static_cast<float>(gap.weight * gap.rise), static_cast<float>(found->gain())});
+    }
+  });
+  return slices;
+}
+
+/// How far the walls around each voxel have to rise, of the contrast.
+WeightedMeans rises_of_walls(const std::vector<std::vector<FoundAt>>& slices,
+                             const VolumeView& guide, const ObjectContrast& contrast) {
+  Volume walls{guide, std::vector<float>(guide.samples.size())}, weights = walls;
+  parallel_for(guide.samples.size(), [&](std::size_t n) {
+    const double share = (guide.samples[n] - contrast.background) / contrast.difference();
+    weights.samples[n] = share > kBright ? 1 : 0;
+  });
+  for (std::size_t k = 0; k < slices.size(); ++k) {
+    const std::size_t first = guide.offset(0, 0, static_cast<Index>(k));
+    for (const FoundAt& found : slices[k]) {
+      walls.samples[first + found.voxel] = found.wall;
+      weights.samples[first + found.voxel] = found.weight;
+    }
+  }
+  return {std::move(walls), std::move(weights), kWallSpread, kFewest};
+}
+
 }  // namespace
 
 void lift_thin_sheets(Volume& restored, const VolumeView& guide, const SheetOptions& options) {
-  const auto& size = restored.size;
-  Volume walls{restored, std::vector<float>(restored.samples.size())}, weights = walls,
-                                                                       gaps = walls, gains = walls;
-  {
-    const SheetFinder finder(restored, guide, options);
-    parallel_for_each(static_cast<std::size_t>(size[2]), [&](std::size_t slice) {
-      const auto k = static_cast<Index>(slice);
-      for (Index j = 0; j < size[1]; ++j) {
-        for (Index i = 0; i < size[0]; ++i) {
-          const Finding found = finder.at({i, j, k});
-          const std::size_t n = restored.offset(i, j, k);
-          walls.samples[n] = static_cast<float>(found.wall.weight * found.wall.rise);
-          weights.samples[n] = static_cast<float>(found.wall.weight);
-          gaps.samples[n] = static_cast<float>(found.gap.weight * found.gap.rise);
-          gains.samples[n] = static_cast<float>(found.gain());
-        }
-      }
-    });
-  }
-  const WeightedMeans rises(std::move(walls), std::move(weights), kWallSpread, kFewest);
+  const auto slices = find_sheets(SheetFinder(restored, guide, options), restored);
+  const WeightedMeans rises = rises_of_walls(slices, guide, options.contrast);
   const double contrast = options.contrast.difference(), half = options.contrast.half_maximum();
-  parallel_for(restored.samples.size(), [&](std::size_t n) {
-    const double rise = rises.at(n) - gaps.samples[n];
-    if (rise == 0 && gains.samples[n] == 1) return;
-    const double above = restored.samples[n] + contrast * rise - half;
-    restored.samples[n] = static_cast<float>(half + gains.samples[n] * above);
+  parallel_for_each(slices.size(), [&](std::size_t k) {
+    const std::size_t first = restored.offset(0, 0, static_cast<Index>(k)),
+                      count = restored.samples.size() / slices.size();
+    auto next = slices[k].begin();
+    for (std::size_t voxel = 0; voxel < count; ++voxel) {
+      const bool is_found = next != slices[k].end() && next->voxel == voxel;
+      const double gain = is_found ? next->gain : 1;
+      const double rise = rises.at(first + voxel) - (is_found ? next->gap : 0);
+      if (is_found) ++next;
+      if (rise == 0 && gain == 1) continue;
+      float& value = restored.samples[first + voxel];
+      value = static_cast<float>(half + gain * (value + contrast * rise - half));
+    }
   });
 }
 
