@@ -54,6 +54,21 @@ TEST(MemoryNeeded, OfTheLargestScansIsWhatWasMeasured) {
   EXPECT_LT(memory_needed(empty_volume(204, 244, 304), settings), 1e9);
 }
 
+TEST(MemoryNeeded, OfPreviewsIsWhatWasMeasured) {
+  Settings settings;
+  settings.preview = true;
+  // Measured beside the scan: a spine, spongy bone and a skull, 441 MB, 356 MB, 416 MB.
+  const Volume spine = empty_volume(120, 126, 164, {1.5, 1.5, 1.5}),
+               spongy = empty_volume(140, 140, 140),
+               skull = empty_volume(328, 435, 112, {0.451, 0.451, 1});
+  EXPECT_GT(memory_needed(spine, settings), 441e6);
+  EXPECT_LT(memory_needed(spine, settings), 1.3 * 441e6);
+  EXPECT_GT(memory_needed(spongy, settings), 356e6);
+  EXPECT_LT(memory_needed(spongy, settings), 1.5 * 356e6);
+  EXPECT_GT(memory_needed(skull, settings), 416e6);
+  EXPECT_LT(memory_needed(skull, settings), 1.7 * 416e6);
+}
+
 TEST(MemoryNeeded, IsMoreWhereTheFirstGridIsSolvedInDoublePrecision) {
   const Volume volume = empty_volume(400, 400, 400);
   Settings draft, exact, stiff;

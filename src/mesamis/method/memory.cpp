@@ -2,6 +2,7 @@
 #include "mesamis/method/memory.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -21,6 +22,8 @@ constexpr double kBytesToLevel = 14;    // per voxel: edges, means around them, 
 constexpr double kBytesPerNode = 54;    // of the first grid: fields, metrics, their eigenvalues
 constexpr double kBytesPerDoubleNode = 112;  // where the fields are solved in double precision
 constexpr double kBytesPerCell = 450;        // of the adapted meshes
+constexpr double kBytesPerTriangle = 450;    // of a preview's surface, while it follows the image
+constexpr double kTriangles = 50;  // of it, times n^(2/3) of n nodes: of spongy bone nearly as many
 constexpr double kBytesOfProgram = 5e7;
 
 /// See run_amis_on_grid(). Above this beta its conjugate gradients may need too many iterations.
@@ -43,11 +46,13 @@ double memory_needed(const VoxelGrid& volume, const Settings& settings) {
   const double cells = settings.preview    ? 0
                        : settings.max_tets ? static_cast<double>(*settings.max_tets)
                                            : std::min<double>(kMostTets, 12 * voxels);
+  const double triangles = settings.preview ? kTriangles * std::pow(nodes, 2.0 / 3) : 0;
   const bool local = settings.has_local_level();
   const double per_voxel = kBytesPerVoxel + (local ? kBytesPerLevel : 0);
   return kBytesOfProgram + per_voxel * voxels +
          std::max({(local ? kBytesToLevel : kBytesToPrepare) * voxels,
-                   bytes_per_node(settings) * nodes, kBytesPerCell * cells});
+                   bytes_per_node(settings) * nodes, kBytesPerCell * cells,
+                   kBytesPerTriangle * triangles});
 }
 
 std::optional<std::array<Index, 3>> stride_that_fits(const VoxelGrid& volume, Settings settings,

@@ -12,7 +12,8 @@ namespace mesamis::detail::method {
 
 /// Predicts how much memory mes_amis() takes beside the volume it is given. The largest of three
 /// counts: preparing the image (by the voxel), the first pass (by the node of its grid), and the
-/// adapted meshes (by the cell). Measured, with a little to spare: see docs/performance.md.
+/// adapted meshes (by the cell), or of a preview its surface (by the triangle, of which no header
+/// tells). Measured, with a little to spare: see docs/performance.md.
 /// @param settings  valid; where max_tets is to be chosen, the most that could be chosen counts.
 /// @return bytes.
 /// @throws InputError  as cropped_size().
