@@ -156,6 +156,7 @@ RunFigures figures_of(const OutcomeDetails& outcome) {
     const std::vector<double>& expected = outcome.expected_error(n);
     if (expected.empty()) continue;
     const ErrorSummary summary = summarize_error(surface, expected);
+    if (!summary.is_known()) continue;
     object.expected_error = summary.mean;
     figures.largest_error = summary.percentile95;
     error += summary.mean * summary.area;

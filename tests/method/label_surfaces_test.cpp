@@ -286,6 +286,17 @@ TEST(LabelSurfaces, TheLabelsDecideWhereTheImageShowsNothing) {
 }
 
 /// What the scan shows of an object may be little or nothing: labels that flow then keep what they have.
+/// Noise with values like those of a CT, in which no object is found, and plain noise.
+TEST(LabelSurfaces, NothingIsExpectedOfBoundariesInNoise) {
+  for (const auto& [mean, noise] : {std::pair{40.0, 100.0}, std::pair{0.0, 50.0}}) {
+    const LabelResult result =
+        find_labelled_objects(scan_of(mean, mean, mean, noise), {labels_of(1, 0)}, {});
+    ASSERT_FALSE(result.boundaries.empty());
+    for (const LabelBoundary& b : result.boundaries) EXPECT_FALSE(b.followed) << mean;
+    for (const LabelledObject& o : result.objects) EXPECT_TRUE(o.expected_error.empty()) << mean;
+  }
+}
+
 TEST(LabelSurfaces, OfCoarseLabelsKeepTheirVolumeWhereTheImageShowsLittle) {
   for (const double contrast : {0.0, 60.0}) {
     const Volume scan = scan_of(600, 50 + contrast, 50, 20);

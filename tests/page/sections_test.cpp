@@ -87,6 +87,10 @@ TEST(Headline, AddsObjectsUp) {
   const std::string text = headline_section(report).str();
   for (const char* part : {"2 objects", "4.00", "0.35", "1 of 2"})
     EXPECT_THAT(text, HasSubstr(part));
+  report["object"]["surfaces"][0]["expected_error_mm"] = nullptr;
+  EXPECT_THAT(headline_section(report).str(), HasSubstr("0.40")) << "of the known ones";
+  report["object"]["surfaces"][1]["expected_error_mm"] = nullptr;
+  EXPECT_THAT(headline_section(report).str(), Not(HasSubstr("expected error")));
 }
 
 TEST(Methods, NameTheProgramTheFiguresAndTheSource) {

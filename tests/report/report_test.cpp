@@ -104,7 +104,8 @@ TEST(FactsOf, AreThoseOfTheScan) {
 }
 
 TEST(ErrorJson, HasMeanPercentileAndGreatest) {
-  EXPECT_EQ(error_json({0.1, 0.2, 0.5}).dump(), R"({"mean":0.1,"p95":0.2,"max":0.5})");
+  EXPECT_TRUE(error_json({}).is_null());
+  EXPECT_EQ(error_json({0.1, 0.2, 0.5, 1}).dump(), R"({"mean":0.1,"p95":0.2,"max":0.5})");
 }
 
 TEST(Producer, IsTheProgramItsVersionAndItsCommit) {

@@ -64,6 +64,15 @@ TEST(Restore, LeavesAConstantImage) {
   EXPECT_EQ(restored.impulses, 0);
 }
 
+TEST(Restore, TakesAllForNoiseWhereThereIsNoObject) {
+  const Volume flat = sampled_volume({30, 30, 30}, {1, 1, 1}, [](const Vec3&) { return 40; });
+  const Restored restored = restore(degrade(flat, {.noise = 100}), HalfMaximumLevel{});
+  EXPECT_NEAR(restored.noise, 100, 5);
+  EXPECT_EQ(restored.noise_left, restored.noise);
+  for (const double along : restored.surface_noise) EXPECT_GT(along, 100 / 4.0);
+  EXPECT_NEAR(restore(flat, HalfMaximumLevel{}).noise, 0, 1e-9) << "but for round-off";
+}
+
 TEST(Restore, ScalesWithTheImage) {
   // Undoing a known blur is linear; units and offset of the values must not matter.
   const Volume scan = degrade(make_ball({.noise = 0}), {.noise = 6});

@@ -46,13 +46,15 @@ struct ErrorSummary {
   double percentile95 = 0;  ///< of the distances expected: 95 % of the area should be nearer
   double most = 0;          ///< of any triangle
   double area = 0;          ///< of the triangles that count, mm^2
+  /// Whether any triangle counts.
+  bool is_known() const noexcept { return area > 0; }
 };
 
 /// Summarizes mean distances expected at the points of a surface over its area, without the triangles
 /// whose values are all 0. Distances are those of normal variables around 0: one of mean size e is
 /// less than x with the probability erf(x / (e sqrt(pi))).
 /// @param values  n, one per point, mm.
-/// @return zeros if nothing is left.
+/// @return zeros, which are not known, if nothing is left.
 /// @throws InputError  as require_sound().
 ///
 /// O(n log n).

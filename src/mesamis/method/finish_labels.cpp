@@ -88,7 +88,7 @@ void finish_layer(const LabelRun& run, LayerBoundaries layer, const RunInput* in
     LabelledObject object{
         segments[n], selected(run, std::move(surfaces[n])), {}, extracted[labels[n]]};
     if (object.surface.triangles.empty()) continue;
-    if (input != nullptr) {
+    if (input != nullptr && layer.placed[static_cast<std::size_t>(labels[n])] != 0) {
       ErrorOptions delivered = input->error;
       delivered.decimated = decimated;
       object.expected_error = expected_error(object.surface, input->image, delivered);

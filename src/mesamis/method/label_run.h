@@ -47,6 +47,7 @@ struct LayerBoundaries {
   PartitionSurface partition;     ///< world frame, mm; material 0 is whatever is not chosen
   std::vector<double> volumes{};  ///< of the voxels of each label, mm^3; empty: they have flowed
   std::vector<LabelBoundary> boundaries{};
+  std::vector<char> placed{};     ///< of each label: not 0 where the image placed a boundary of it
   std::optional<Volume> image{};  ///< label_image(), for the mesh
   bool converged = true;
 };

@@ -143,6 +143,17 @@ std::vector<LabelBoundary> boundaries_of(const LabelRun& run, Index layer,
   return found;
 }
 
+/// Of each label whether the image places a boundary of it.
+std::vector<char> labels_placed(const LabelRun& run, const std::vector<PairLevel>& pairs,
+                                double noise) {
+  std::vector<char> placed(std::size_t{kMaxLabel} + 1, 0);
+  for (const PairLevel& pair : pairs) {
+    if (!run.settings.follow || !shows_edge(pair, noise)) continue;
+    for (const Index side : pair.sides) placed[static_cast<std::size_t>(side)] = 1;
+  }
+  return placed;
+}
+
 /// Whether a boundary has left its edge: the image shows less there than where it was.
 bool has_left(const PairLevel& before, const std::vector<PairLevel>& after) {
   const auto same = std::find_if(after.begin(), after.end(),
@@ -257,6 +268,7 @@ LayerBoundaries place_by_image(const LabelRun& run, LayerBoundaries found, const
   const RunInput input(edges.prepared);
   const auto pairs = measure_pair_levels(found.partition, input.image);
   found.boundaries = boundaries_of(run, layer, pairs, input);
+  found.placed = labels_placed(run, pairs, input.noise);
   found.partition = without_narrow_contacts(run, layer, input.grey, std::move(found.partition));
   auto guides = guides_of_points(found.partition, pairs, input.noise);
   found.partition = only_chosen(found.partition, marks_of(run.chosen, layer), guides);

@@ -59,8 +59,9 @@ struct LabelRequest {
 /// One object, world frame (LPS), mm.
 struct LabelledObject {
   Segment segment;
-  TriMesh surface;                     ///< closed, 2-manifold, oriented outward
-  std::vector<double> expected_error;  ///< at its points, mm; empty without an image
+  TriMesh surface;  ///< closed, 2-manifold, oriented outward
+  /// At its points, mm; empty where the image placed none of its boundaries.
+  std::vector<double> expected_error;
   std::int64_t triangles_extracted = 0;
 };
 

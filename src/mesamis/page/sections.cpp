@@ -64,18 +64,27 @@ void add_tile(Html& tiles, const json& report, std::string_view name,
   add_tile(tiles, name, value);
 }
 
-/// The sum of an entry over the objects, times another where one is named; nothing if it is missing.
-std::optional<double> sum_over_objects(const json& report, const char* key,
-                                       const char* times = nullptr) {
+/// The sum of the objects' volumes, mm^3; nothing if one is missing.
+std::optional<double> volume_of_objects(const json& report) {
   double sum = 0;
   for (const json& one : entry(report, "/object/surfaces")) {
-    const json& value = entry(one, key);
-    if (!value.is_number()) return {};
-    const json& factor = times == nullptr ? value : entry(one, times);
-    if (!factor.is_number()) return {};
-    sum += value.get<double>() * (times == nullptr ? 1 : factor.get<double>());
+    const json& volume = entry(one, "/volume_mm3");
+    if (!volume.is_number()) return {};
+    sum += volume.get<double>();
   }
   return sum;
+}
+
+/// The mean of the errors that are known, over the area, mm; nothing if none is.
+std::optional<double> error_of_objects(const json& report) {
+  double sum = 0, whole = 0;
+  for (const json& one : entry(report, "/object/surfaces")) {
+    const json &error = entry(one, "/expected_error_mm/mean"), &area = entry(one, "/area_mm2");
+    if (!error.is_number() || !area.is_number()) continue;
+    sum += error.get<double>() * area.get<double>();
+    whole += area.get<double>();
+  }
+  return whole > 0 ? std::optional(sum / whole) : std::nullopt;
 }
 
 std::string cm3_text(double mm3) { return significant_text(mm3 / 1000, 3) + "\u00a0cm³"; }
@@ -115,13 +124,11 @@ void add_one_object(Html& tiles, const json& report) {
 
 /// Sums, and the mean of the errors over the area.
 void add_several_objects(Html& tiles, const json& report) {
-  if (const auto volume = sum_over_objects(report, "/volume_mm3")) {
+  if (const auto volume = volume_of_objects(report)) {
     add_tile(tiles, "volume", element("span", cm3_text(*volume)));
   }
-  const auto area = sum_over_objects(report, "/area_mm2");
-  const auto error = sum_over_objects(report, "/expected_error_mm/mean", "/area_mm2");
-  if (area && error && *area > 0) {
-    add_tile(tiles, "expected error, mean", element("span", error_text(*error / *area)));
+  if (const auto error = error_of_objects(report)) {
+    add_tile(tiles, "expected error, mean", element("span", error_text(*error)));
   }
   std::size_t closed = 0;
   for (const json& one : entry(report, "/object/surfaces")) {

@@ -249,6 +249,7 @@ ordered_json printable_json(const PrintableReport& printable, double tolerance) 
 }
 
 ordered_json error_json(const ErrorSummary& error) {
+  if (!error.is_known()) return nullptr;
   return {{"mean", error.mean}, {"p95", error.percentile95}, {"max", error.most}};
 }
 

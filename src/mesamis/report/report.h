@@ -77,7 +77,7 @@ nlohmann::ordered_json settings_used_json(const Settings& asked, const Parameter
 /// What was found out about a scan: noise, blur, contrast, as docs/formats.md lists them.
 nlohmann::ordered_json image_json(const Parameters& parameters, const MeasuredImage& image);
 
-/// How near to the truth a surface can be expected to be: mean, p95, max, mm.
+/// How near to the truth a surface can be expected to be: mean, p95, max, mm; or null.
 nlohmann::ordered_json error_json(const ErrorSummary& error);
 
 /// The counts, volume and area of a surface, and whether it is closed.

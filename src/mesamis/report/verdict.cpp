@@ -76,10 +76,11 @@ std::string accuracy_unmet(double accuracy, const TriMesh& surface,
   if (accuracy == 0 || surface.triangles.empty()) return {};
   std::ostringstream line;
   line << "accuracy: expected " << accuracy << " mm in the mean at most, found ";
-  if (expected_error.empty()) return line.str() + "an error that is not known";
-  const double expected = summarize_error(surface, expected_error).mean;
-  if (expected <= accuracy) return {};
-  line << expected << " mm to expect";
+  const ErrorSummary expected =
+      expected_error.empty() ? ErrorSummary{} : summarize_error(surface, expected_error);
+  if (!expected.is_known()) return line.str() + "an error that is not known";
+  if (expected.mean <= accuracy) return {};
+  line << expected.mean << " mm to expect";
   return line.str();
 }
 

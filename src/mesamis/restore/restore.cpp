@@ -136,7 +136,13 @@ Restored restore(Volume volume, const HalfMaximumLevel& object, const RestoreOpt
   restored.noise = options.noise.value_or(0);
   restored.blur = options.blur.value_or(std::array<double, 3>{});
   require_valid_blur(restored.blur);
-  if (!(object.contrast.difference() > 0)) return restored;
+  if (!(object.contrast.difference() > 0)) {
+    if (!options.noise) restored.noise = measure_noise(restored.volume);
+    restored.noise_left = restored.noise;
+    restored.surface_noise = noise_gain_along_surface({}, 1, {});
+    for (double& along : restored.surface_noise) along *= restored.noise;
+    return restored;
+  }
   const Guide guide = clean(restored, object, options);
   restored.noise_correlation =
       measure_noise_correlation(restored.volume, guide.image, guide.points, object.level);

@@ -62,7 +62,7 @@ struct Restored {
 /// than itself, is corrected (lift_thin_sheets()).
 /// @param volume  native values; taken over, pass it with std::move() to save the copy.
 /// @param object  of this volume, see find_object_edge(). Where its contrast is not positive, the
-/// volume stays as it is.
+/// volume stays as it is, and its noise is that of all places.
 /// @throws InputError  if an option is out of range.
 /// O(voxels); about four copies of the samples.
 Restored restore(Volume volume, const HalfMaximumLevel& object, const RestoreOptions& options = {});

@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t kFewestPlaces = 10, kFewestOfAnAxis = 100;
 constexpr std::array<double, 2> kBeside{-2.5, 2.5};  // voxels from the surface
 constexpr double kMadToDeviation = 1.4826;           // of a normal distribution
+constexpr std::size_t kLookedAt = 100'000;           // voxels, where there is no surface
 
 /// The voxel nearest to a place, or nothing within one voxel of the border.
 std::optional<std::array<Index, 3>> voxel_at(const VoxelGrid& grid, const Vec3& p) {
@@ -45,6 +46,12 @@ double deviation_at(const VolumeView& volume, const std::array<Index, 3>& voxel)
     }
   }
   return std::abs(volume.at(voxel[0], voxel[1], voxel[2]) - fitted);
+}
+
+/// The standard deviation of noise, from the places' deviation_at().
+double noise_of(std::vector<double>& deviations) {
+  const double share = std::sqrt(20.0 / 27);  // of white noise, left by the fit
+  return kMadToDeviation * median(deviations) / share;
 }
 
 /// A voxel beside the surface, and the normal of the surface there.
@@ -192,7 +199,6 @@ std::array<double, 3> blur_of_axes(const VolumeView& volume, const PointGroup& p
 
 double measure_noise(const VolumeView& volume, const VolumeView& guide,
                      const std::vector<SurfacePoint>& points, double level) {
-  const double share = std::sqrt(20.0 / 27);  // of white noise, left by the fit
   std::optional<double> quieter;
   for (const double distance : kBeside) {
     const std::vector<Beside> places = voxels_beside(guide, points, distance, level);
@@ -200,10 +206,22 @@ double measure_noise(const VolumeView& volume, const VolumeView& guide,
     parallel_for(places.size(),
                  [&](std::size_t n) { deviations[n] = deviation_at(volume, places[n].voxel); });
     if (deviations.size() < kFewestPlaces) continue;
-    const double deviation = kMadToDeviation * median(deviations) / share;
+    const double deviation = noise_of(deviations);
     quieter = std::min(deviation, quieter.value_or(deviation));
   }
   return quieter.value_or(0);
+}
+
+double measure_noise(const VolumeView& volume) {
+  const auto [nx, ny, nz] = volume.size;
+  const std::size_t every = std::max<std::size_t>(1, volume.voxel_count() / kLookedAt);
+  std::vector<double> deviations;
+  for (std::size_t n = 0; n < volume.voxel_count(); n += every) {
+    const auto [i, j, k] = volume.voxel(n);
+    if (i < 1 || j < 1 || k < 1 || i + 1 >= nx || j + 1 >= ny || k + 1 >= nz) continue;
+    deviations.push_back(deviation_at(volume, {i, j, k}));
+  }
+  return deviations.empty() ? 0 : noise_of(deviations);
 }
 
 std::array<double, 3> measure_noise_correlation(const VolumeView& volume, const VolumeView& guide,
