@@ -6,8 +6,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "mesamis/base/utf8.h"
 #include "mesamis/base/written_number.h"
-#include "mesamis/files/utf8.h"
 
 namespace mesamis {
 namespace {

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "arguments.h"
-#include "mesamis/files/utf8.h"
+#include "mesamis/base/utf8.h"
 #include "slicer_progress.h"
 
 namespace mesamis {

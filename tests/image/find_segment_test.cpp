@@ -61,6 +61,7 @@ TEST(FindSegment, NamesTheNearestOfMany) {
 TEST(FindSegment, MessagesStayOneLineOfPlainText) {
   const std::vector<Segment> odd{{"two\nlines\x1b[31m", 1, 0, {}},
                                  {std::string(500, 'x'), 2, 0, {}}};
+  EXPECT_REFUSED(find_segment(odd, "Wirbelkörper"), HasSubstr("found \"Wirbelkörper\";"));
   EXPECT_REFUSED(find_segment(odd, "a\nb"), AllOf(HasSubstr("\"a?b\""), HasSubstr("two?lines?[31m"),
                                                   Not(HasSubstr(std::string(61, 'x')))));
 }

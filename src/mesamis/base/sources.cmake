@@ -15,11 +15,13 @@ set(ROOM_HEADERS
   sym3.h
   threads.h
   types.h
+  utf8.h
   version.h
   written_number.h)
 set(ROOM_SOURCES
   available_memory.cpp
   nearest_names.cpp
   sym3.cpp
+  utf8.cpp
   written_number.cpp
   NEXT parallel.cpp)

@@ -4,10 +4,10 @@
 #include <array>
 
 #include "mesamis/base/error.h"
+#include "mesamis/base/utf8.h"
 #include "mesamis/files/byte_source.h"
 #include "mesamis/files/dicom_text.h"
 #include "mesamis/files/refuse.h"
-#include "mesamis/files/utf8.h"
 
 namespace mesamis {
 namespace {

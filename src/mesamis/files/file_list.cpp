@@ -10,8 +10,8 @@
 #include <system_error>
 #include <utility>
 
+#include "mesamis/base/utf8.h"
 #include "mesamis/files/refuse.h"
-#include "mesamis/files/utf8.h"
 
 namespace mesamis::detail::files {
 namespace {

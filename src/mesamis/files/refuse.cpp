@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "mesamis/base/error.h"
-#include "mesamis/files/utf8.h"
+#include "mesamis/base/utf8.h"
 
 namespace mesamis::detail::files {
 namespace {

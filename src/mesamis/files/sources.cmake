@@ -24,7 +24,6 @@ set(ROOM_HEADERS
   sha256.h
   text_scan.h
   text_writer.h
-  utf8.h
   value_axes.h
   xml.h
   xml_text.h
@@ -43,7 +42,6 @@ set(ROOM_SOURCES
   pending_file.cpp
   refuse.cpp
   sha256.cpp
-  utf8.cpp
   value_axes.cpp
   xml_text.cpp
   zip_archive.cpp

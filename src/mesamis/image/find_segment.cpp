@@ -5,13 +5,14 @@
 
 #include "mesamis/base/each_once.h"
 #include "mesamis/base/error.h"
+#include "mesamis/base/utf8.h"
 #include "mesamis/image/label_map.h"
 
 namespace mesamis {
 namespace {
 
 constexpr std::size_t kMostListed = 12;   // segments in a message
-constexpr std::size_t kLongestName = 60;  // characters of a name in a message
+constexpr std::size_t kLongestName = 60;  // bytes of a name in a message
 
 std::string lower(std::string_view text) {
   std::string out(text);
@@ -21,9 +22,7 @@ std::string lower(std::string_view text) {
 
 /// The text in quotes as a line of a message may show it.
 std::string in_quotes(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text.substr(0, kLongestName)) out += c >= ' ' && c <= '~' ? c : '?';
-  return out + (text.size() > kLongestName ? "...\"" : "\"");
+  return "\"" + shortened(as_one_line(text), kLongestName) + "\"";
 }
 
 std::string title(const Segment& segment) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "mesamis/files/utf8.h"
+#include "mesamis/base/utf8.h"
 #include "mesamis/files/xml_text.h"
 
 namespace mesamis::detail::page {

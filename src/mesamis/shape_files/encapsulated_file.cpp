@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "mesamis/base/error.h"
+#include "mesamis/base/utf8.h"
 #include "mesamis/base/version.h"
 #include "mesamis/files/byte_source.h"
 #include "mesamis/files/dicom_data.h"
 #include "mesamis/files/dicom_writer.h"
 #include "mesamis/files/refuse.h"
-#include "mesamis/files/utf8.h"
 #include "mesamis/shape_files/surface_formats.h"
 
 namespace mesamis::detail::shape_files {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/files/utf8.h"
+#include "mesamis/base/utf8.h"
 
 #include <cstddef>
 
-namespace mesamis::detail::files {
+namespace mesamis::detail::base {
 namespace {
 
 /// How many bytes follow this first one of a character; -1 if no character begins so.
@@ -74,4 +74,4 @@ std::string shortened(const std::string& text, std::size_t longest) {
   return text.substr(0, head).append(kGap).append(text, tail);
 }
 
-}  // namespace mesamis::detail::files
+}  // namespace mesamis::detail::base

@@ -8,7 +8,7 @@
 #include "mesamis/rooms.h"
 
 /// Text that goes into files and messages.
-namespace mesamis::detail::files {
+namespace mesamis::detail::base {
 
 /// Whether a text is UTF-8 (RFC 3629): no character in more bytes than it needs, no halves of
 /// pairs, none beyond U+10FFFF.
@@ -22,4 +22,4 @@ std::string as_one_line(std::string_view text);
 /// @param longest  bytes, at least 5.
 std::string shortened(const std::string& text, std::size_t longest);
 
-}  // namespace mesamis::detail::files
+}  // namespace mesamis::detail::base

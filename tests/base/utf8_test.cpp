@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesamis/files/utf8.h"
+#include "mesamis/base/utf8.h"
 
 #include <gtest/gtest.h>
 
