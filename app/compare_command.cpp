@@ -11,6 +11,7 @@
 #include "costs.h"
 #include "frames_option.h"
 #include "log.h"
+#include "mesamis/base/written_number.h"
 #include "mesamis/files/atomic_file.h"
 #include "mesamis/object/places.h"
 #include "mesamis/report/comparison_json.h"
@@ -70,8 +71,11 @@ void write_colored(const OutputPath& path, const SurfacePair& pair,
 
 void print_line(const std::string& name, const char* how, const std::vector<double>& distances) {
   const DistanceSummary s = summarize(distances);
-  std::printf("%-22s %-8s %9zu %9.4f %9.4f %9.4f %9.4f %9.4f\n", name.c_str(), how, s.count, s.mean,
-              s.rms, s.p95, s.p99, s.max);
+  std::printf("%-22s %-8s %9zu", name.c_str(), how, s.count);
+  for (const double mm : {s.mean, s.rms, s.p95, s.p99, s.max}) {
+    std::printf(" %9s", significant_text(mm, 4).c_str());
+  }
+  std::printf("\n");
 }
 
 void print_lines(const std::vector<DirectedDistances>& directions) {

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "frames_option.h"
 #include "log.h"
 #include "mesamis/base/error.h"
+#include "mesamis/base/written_number.h"
 #include "mesamis/files/output_set.h"
 #include "mesamis/method/memory.h"
 #include "mesamis/report/json_file.h"
@@ -74,6 +76,31 @@ void make_folder(const fs::path& folder) {
   if (error) throw InputError(folder.string() + ": cannot be made: " + error.message());
 }
 
+/// The files in a folder, by name, and when they were written; none where there is no folder.
+std::map<std::string, fs::file_time_type> files_in(const fs::path& folder) {
+  std::map<std::string, fs::file_time_type> files;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    if (entry.is_regular_file()) files[entry.path().filename()] = entry.last_write_time();
+  }
+  return files;
+}
+
+/// Names the files that were in the folder before and were not written again: those of an earlier
+/// study look like results of this one.
+void warn_of_older(const fs::path& folder,
+                   const std::map<std::string, fs::file_time_type>& before) {
+  std::string names;
+  for (const auto& [name, time] : files_in(folder)) {
+    const auto earlier = before.find(name);
+    if (earlier == before.end() || earlier->second != time) continue;
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  if (!names.empty()) {
+    log_warning(folder.string() + ": these files in it are not of this study: " + names);
+  }
+}
+
 std::vector<Experiment> plan(const StudyCommand& command, const Volume& scan) {
   const Settings settings = settings_of(command.settings);
   std::vector<Experiment> experiments;
@@ -119,10 +146,8 @@ void print_table(const std::vector<StudyRun>& runs) {
       return number_text(run.summary ? std::optional<double>(value(*run.summary)) : std::nullopt,
                          format);
     };
-    const auto mean = [&run](auto value) {
-      return number_text(
-          run.comparison ? std::optional<double>(value(*run.comparison).mean) : std::nullopt,
-          "%.4f");
+    const auto mean = [&run](auto value) -> std::string {
+      return run.comparison ? significant_text(value(*run.comparison).mean, 4) : "-";
     };
     using Figures = const RunSummary&;
     using Compared = const RunComparison&;
@@ -238,10 +263,12 @@ void require_all(const Study& study, const std::vector<Experiment>& experiments)
 }
 
 int run_experiments(Study& study, const std::vector<Experiment>& experiments) {
+  const auto before = files_in(study.command.folder);
   for (const Experiment& experiment : experiments) run_experiment(study, experiment);
   nlohmann::ordered_json report = study_json(study.record);
   add_costs(report);
   write_json(study.command.folder / kReport, report);
+  warn_of_older(study.command.folder, before);
   if (!study.remarks.empty()) log_error(study.remarks);
   return exit_status(study.record.outcome());
 }

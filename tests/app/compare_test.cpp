@@ -46,6 +46,14 @@ TEST(CompareCommand, MeasuresParallelSquares) {
   }
 }
 
+TEST(CompareCommand, PrintsMicronsWithAsManyDigits) {
+  const TempFolder folder;
+  write_bytes(folder / "a.obj", square(0));
+  write_bytes(folder / "b.obj", square(0.0006254));
+  const ProgramRun run = run_program(folder, {"compare", folder / "a.obj", folder / "b.obj"});
+  EXPECT_THAT(run.out, testing::HasSubstr(" 0.0006254 0.0006254 0.0006254 "));
+}
+
 TEST(CompareCommand, MeasuresInsideABoxAlone) {
   const TempFolder folder;
   write_bytes(folder / "a.obj", square(0));

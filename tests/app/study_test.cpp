@@ -109,6 +109,19 @@ TEST(StudyCommand, TablesSayWhatCompareSaysOfTheSurfacesLeftBehind) {
   }
 }
 
+TEST(StudyCommand, NamesFilesOfAnEarlierStudyAndLeavesThem) {
+  const TempFolder folder;
+  make_ball(folder);
+  study(folder, {"--subsample", "4", "--preview"});
+  write_bytes(folder / "out/mine.csv", "1,2");
+  const ProgramRun again =
+      run_program(folder, {"study", folder / "scan.nrrd", "--reference", folder / "truth.ply", "-o",
+                           folder / "out", "--subsample", "2", "--preview"});
+  EXPECT_THAT(again.err, HasSubstr("not of this study: mine.csv, s4.ply\n"));
+  EXPECT_EQ(read_bytes(folder / "out/mine.csv"), "1,2");
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/s4.ply"));
+}
+
 TEST(StudyCommand, MarksWhatHasNotConvergedAndWritesAllTheSame) {
   const TempFolder folder;
   make_ball(folder);
