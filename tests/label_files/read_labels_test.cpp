@@ -21,6 +21,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::ElementsAreArray;
 using testing::HasSubstr;
+using testing::Not;
 using testing::SizeIs;
 using testing::StartsWith;
 
@@ -411,10 +412,10 @@ std::string share_nifti(const std::vector<float>& values, std::int16_t volumes,
 TEST(ReadProbabilities, OfFourDimensions) {
   const TempFolder folder;
   for (const bool fifth : {false, true}) {
-    write_bytes(folder / "a.nii", share_nifti({0, 0.25, 0.5, 1, 1, 0.75, 0.5, 0}, 2, fifth));
+    write_bytes(folder / "a.nii", share_nifti({0, 0.25, 0.5, 1, 1, 0.75, 0.5, 0.25}, 2, fifth));
     const Probabilities p = read_probabilities({folder / "a.nii"}).probabilities;
     EXPECT_THAT(p.layers,
-                ElementsAre(ElementsAre(0, 0.25f, 0.5f, 1), ElementsAre(1, 0.75f, 0.5f, 0)));
+                ElementsAre(ElementsAre(0, 0.25f, 0.5f, 1), ElementsAre(1, 0.75f, 0.5f, 0.25f)));
     ASSERT_THAT(p.segments, SizeIs(2));
     EXPECT_EQ(p.segments[1], (Segment{"label 2", 2, 1, default_colour(2)}));
   }
@@ -426,6 +427,27 @@ TEST(ReadProbabilities, OfFourDimensions) {
   const Probabilities p = read_probabilities({folder / "a.nrrd"}).probabilities;
   EXPECT_THAT(p.layers[1], ElementsAre(1, 0.75f, 0.5f, 0));
   EXPECT_EQ(find_segment(p.segments, "skin").layer, 1);
+}
+
+TEST(ReadProbabilities, OfANetworkLeaveOutTheBackground) {
+  const TempFolder folder;
+  const std::vector<float> first{1, 0.5, 0.25, 0}, second{0, 0.25, 0.25, 1}, third{0, 0.25, 0.5, 0};
+  std::vector<float> all = first;
+  all.insert(all.end(), second.begin(), second.end());
+  all.insert(all.end(), third.begin(), third.end());
+  all[5] += 0.002f;  // as half precision rounds
+  write_bytes(folder / "a.nii", share_nifti(all, 3));
+  const ProbabilityFile file = read_probabilities({folder / "a.nii"});
+  EXPECT_THAT(file.warnings, Contains(HasSubstr("first of 3 channels")));
+  ASSERT_THAT(file.probabilities.layers, SizeIs(2));
+  EXPECT_EQ(file.probabilities.layers[1], third);
+  EXPECT_EQ(file.probabilities.segments[0], (Segment{"label 1", 1, 0, default_colour(1)}));
+  // A file per object: each of them is one.
+  write_bytes(folder / "b.nii", share_nifti(first, 1));
+  write_bytes(folder / "c.nii", share_nifti({0, 0.5, 0.75, 1}, 1));
+  const ProbabilityFile each = read_probabilities({folder / "b.nii", folder / "c.nii"});
+  EXPECT_THAT(each.probabilities.layers, SizeIs(2));
+  EXPECT_THAT(each.warnings, Not(Contains(HasSubstr("channels"))));
 }
 
 TEST(ReadProbabilities, OfOneVolumeEach) {

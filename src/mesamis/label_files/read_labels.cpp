@@ -2,10 +2,12 @@
 #include "mesamis/label_files/read_labels.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "mesamis/base/error.h"
+#include "mesamis/base/parallel.h"
 #include "mesamis/files/file_list.h"
 #include "mesamis/files/given_spacing.h"
 #include "mesamis/files/in_one_line.h"
@@ -279,6 +281,33 @@ void take_names(std::vector<Segment>& segments, const std::vector<Segment>& name
   }
 }
 
+/// Whether the channels add up to 1 in every voxel, as those of a network with a softmax do.
+bool add_up_to_one(const std::vector<std::vector<float>>& channels) {
+  constexpr double kSlack = 0.01;  // half precision rounds
+  if (channels.size() < 2) return false;
+  const double most = parallel_max(channels[0].size(), 0, [&](std::size_t begin, std::size_t end) {
+    double largest = 0;
+    for (std::size_t n = begin; n < end; ++n) {
+      double sum = -1;
+      for (const auto& channel : channels) sum += channel[n];
+      largest = std::max(largest, std::abs(sum));
+    }
+    return largest;
+  });
+  return most <= kSlack;
+}
+
+/// Leaves out the background, which comes first where the channels are those of a network: of such
+/// that add up to 1 and do not all have names.
+void leave_out_background(std::size_t named, ProbabilityFile& file) {
+  auto& channels = file.probabilities.layers;
+  if (named >= channels.size() || !add_up_to_one(channels)) return;
+  file.warnings.push_back(message("the first of ", channels.size(),
+                                  " channels, which add up to 1, is taken for the background; a "
+                                  "file per object takes each for one"));
+  channels.erase(channels.begin());
+}
+
 ProbabilityFile probabilities_of_file(const Request& request) {
   const fs::path& file = request.path;
   const auto scan = open_array(file, request.opening());
@@ -296,6 +325,7 @@ ProbabilityFile probabilities_of_file(const Request& request) {
   const std::vector<float> samples = read_samples(*scan, request.budget);
   request.claim(*scan, sizeof(float), "probabilities");
   out.probabilities.layers = probability_layers(file, scan->grid, order_of(*scan), samples);
+  leave_out_background(names.size(), out);
   unshear(request, *scan, out.probabilities, &ShearPlan::note, out.warnings);
   out.probabilities.segments = numbered_segments(out.probabilities.layers.size());
   take_names(out.probabilities.segments, names, scan->format == "NRRD");

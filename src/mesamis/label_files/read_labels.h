@@ -92,7 +92,9 @@ struct ProbabilityFile {
 /// object.
 ///
 /// The objects of one file are called "label 1", "label 2", ...; NRRD and NIfTI files may name them
-/// as read_label_map() says. Of one volume each, the names of the files without their extensions
+/// as read_label_map() says. Where the channels of one file add up to 1 in every voxel (to 0.01) and
+/// fewer are named, the first is the background, as in networks with a softmax: it is left out, with
+/// a warning. Of one volume each, the names of the files without their extensions
 /// are the names. A fractional or binary DICOM segmentation gives its values divided by their
 /// maximum.
 /// @param paths    one file, or several volumes on one grid (to 1e-3 of a voxel).
