@@ -127,9 +127,8 @@ void name_object(const OutcomeDetails& outcome, RunFigures& figures) {
   if (!figures.objects.empty()) {
     figures.objects.front().name = named ? outcome.object->tissue : "all that is bright";
   }
-  const bool range = outcome.object && outcome.object->kind == TissueKind::kRange;
   const bool solid = result.parameters.surface == SurfaceKind::kSolid;
-  if (solid && !range) figures.level = result.parameters.level;
+  if (solid && !outcome.is_of_range()) figures.level = result.parameters.level;
   if (result.image.has_local_levels()) figures.level_range = result.image.level_range;
   // Of the object's image only a bright one is called CT.
   const bool is_ct =

@@ -149,7 +149,7 @@ class Result(_AnyResult, Shape):
     @property
     def level(self):
         """The level of the surface, native units of the scan: of the object as a whole, also where places of a
-        CT have levels of their own (report['surface']['level_range_native'])."""
+        CT have levels of their own (report['surface']['level_range_native']); None of a range of values."""
         return self._run.level
 
     @property
@@ -195,12 +195,12 @@ class Result(_AnyResult, Shape):
         error = (self.report.get("quality") or {}).get("expected_error_mm") or {}
         if error.get("mean"):
             rows.append(("expected error, mean", significant(error["mean"], 2) + " mm"))
-        return [*rows, ("closed", "yes" if self.closed else "no"), ("level", significant(self.level, 4)),
-                ("tetrahedra", len(self._run.tets))]
+        level = [] if self.level is None else [("level", significant(self.level, 4))]
+        return [*rows, ("closed", "yes" if self.closed else "no"), *level, ("tetrahedra", len(self._run.tets))]
 
     def __repr__(self):
-        return (f"<mesamis.Result {len(self.triangles)} triangles, {len(self._run.tets)} "
-                f"tetrahedra, level {self.level:.6g}>")
+        level = "" if self.level is None else f", level {self.level:.6g}"
+        return f"<mesamis.Result {len(self.triangles)} triangles, {len(self._run.tets)} tetrahedra{level}>"
 
 
 class Object(Shape):

@@ -165,7 +165,11 @@ void bind_run(py::module_& module) {
       .def_property_readonly("v", field<double>(&Result::v))
       .def_property_readonly("f", field<double>(&Result::f))
       .def_property_readonly("metric", field<double>(&Result::metric))
-      .def_property_readonly("level", [](const Run& r) { return r.details().parameters().level; })
+      .def_property_readonly("level",
+                             [](const Run& r) -> std::optional<double> {
+                               if (r.details().is_of_range()) return std::nullopt;
+                               return r.details().parameters().level;
+                             })
       .def_property_readonly("converged", [](const Run& r) { return r.details().one->converged; })
       .def_property_readonly("stopped", [](const Run& r) { return r.details().one->stopped; })
       .def_property_readonly("closed", [](const Run& r) { return r.details().checks[0].closed(); })

@@ -146,14 +146,18 @@ TEST(Summary, SaysTheLevelOfATissueWhereThereIsOne) {
              }));
   const auto summary = [&](const std::string& tissue) {
     return run_program(folder, {"segment", folder / "scan.nrrd", "-o", folder / "a.stl",
-                                "--preview", "--tissue", tissue})
+                                "--preview", "--tissue", tissue, "--report", folder / "r.json",
+                                "--html", folder / "r.html"})
         .err;
   };
   for (const char* tissue : {"bone", "dark", "-300:", ":-300"}) {
     EXPECT_THAT(summary(tissue), testing::ContainsRegex("level -?[0-9.]+ HU")) << tissue;
+    EXPECT_THAT(read_bytes(folder / "r.json"), testing::ContainsRegex("\"level_native\": -?[0-9]"));
   }
   EXPECT_THAT(summary("-300:100"),
               AllOf(HasSubstr("object   -300:100, "), Not(HasSubstr(" level "))));
+  EXPECT_THAT(read_bytes(folder / "r.json"), HasSubstr("\"level_native\": null"));
+  EXPECT_THAT(read_bytes(folder / "r.html"), HasSubstr("encloses the values"));
 }
 
 }  // namespace

@@ -243,7 +243,8 @@ Html surface_sentence(const json& report) {
         " labelled objects follow the image where it has an edge, the labels elsewhere. ");
   }
   if (!has(report, "/surface/triangles")) return p;
-  if (has(report, "/surface/level_native")) {
+  const bool is_solid = entry(report, "/surface/kind") == "solid";
+  if (has(report, "/surface/level_native") || (is_range(report) && is_solid)) {
     if (is_range(report)) {
       p.text("The surface encloses the values ")
           .add(datum(report, "/object/tissue", native_unit(report)));

@@ -43,6 +43,8 @@ struct OutcomeDetails {
   std::vector<FoundObject> objects() const;
   /// The image that the run was made of, native units; empty without a scan.
   VolumeView image() const;
+  /// Whether the surface encloses the values of a range, so that it lies at no level of the scan.
+  bool is_of_range() const { return object && object->kind == TissueKind::kRange; }
   /// The adapted mesh with its fields; nullptr: none was made.
   const Result* mesh() const;
   /// What the run used.

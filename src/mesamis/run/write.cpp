@@ -125,8 +125,13 @@ void write_report(const OutcomeDetails& o, const RunFiles& w, ordered_json repor
   if (w.facts.written) w.facts.written(report, set);
 }
 
-/// A level that --tissue gave with its range was not measured.
+/// A level that --tissue gave with its range was not measured; that of values between two ends says
+/// nothing of the scan.
 void tell_level_of_tissue(const OutcomeDetails& o, ordered_json& report) {
+  if (o.is_of_range() && report.contains("surface") && report["surface"].contains("level_native")) {
+    report["surface"]["level_native"] = nullptr;
+    report["chosen"]["level"]["value"] = nullptr;
+  }
   const auto& tissue = o.object_asked.tissue;
   const bool from_tissue = o.object && o.object->level && tissue && tissue->level_is_given() &&
                            o.object->level->from == LevelSource::kTissue;
