@@ -56,6 +56,14 @@ std::string unknown_option(const std::vector<std::string>& names, int count,
   return {};
 }
 
+/// The library's words for an option that was repeated, as ours.
+std::string with_our_words(std::string message) {
+  constexpr std::string_view kTheirs = ": At Most 1 required but received ";
+  const std::size_t at = message.find(kTheirs);
+  if (at == std::string::npos) return message;
+  return message.replace(at, kTheirs.size(), ": expected once, found ") + " times";
+}
+
 }  // namespace
 
 void add_common_options(CLI::App& app, CommonOptions& common) {
@@ -112,7 +120,9 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error, int
   const std::string name = chosen[0]->get_name();
   const std::vector<std::string> names = option_names({&app, chosen[0]});
   const std::string unknown = extra ? unknown_option(names, count, arguments) : "";
-  if (unknown.empty()) return one_line(error.what()) + " (mesamis " + name + " --help tells more)";
+  if (unknown.empty()) {
+    return one_line(with_our_words(error.what())) + " (mesamis " + name + " --help tells more)";
+  }
   return "no option " + quoted_text(unknown) + did_you_mean(unknown, names) + " (mesamis " + name +
          " --help-all lists them)";
 }

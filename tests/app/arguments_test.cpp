@@ -53,6 +53,12 @@ TEST(Arguments, ErrorsOfAnOptionNameItOnce) {
   EXPECT_THAT(set.err, testing::HasSubstr("--set: expected ")) << set.err;
 }
 
+TEST(Arguments, ARepeatedOptionIsExpectedOnce) {
+  const TempFolder folder;
+  EXPECT_FAILS(run_program(folder, {"segment", "a.nrrd", "--margin", "1", "--margin", "2"}), 2,
+               "--margin: expected once, found 2 times (");
+}
+
 TEST(Arguments, CommonOptionsMayStandBeforeOrAfterTheCommand) {
   const TempFolder folder;
   const std::string none = folder / "none.nii";
