@@ -200,9 +200,9 @@ class Result(_AnyResult, _Shape):
     def metric(self) -> _Doubles:
         """The metric that the mesh was made for, at the nodes, 1/mm^2: xx xy xz yy yz zz."""
     @property
-    def level(self) -> float:
+    def level(self) -> float | None:
         """The level of the surface, native units of the scan: of the object as a whole, also where places of a
-        CT have levels of their own (report['surface']['level_range_native']).
+        CT have levels of their own (report['surface']['level_range_native']); None of a range of values.
         """
     @property
     def converged(self) -> bool: ...
@@ -559,8 +559,8 @@ def label(
 ) -> list[tuple[int, str, int]]:
     """Writes closed surfaces as a label map (.nii .nii.gz .nrrd .seg.nrrd) on the grid of a scan.
 
-    `surfaces` is a dict of names and surfaces, each a path, a result, a Surface or (points, triangles);
-    `like` is the scan: a path or an image. A surface whose frame is not known is taken as LPS. Returns
+    `surfaces` is a result of several objects, or a dict of names and surfaces, each a path, a result, a
+    Surface or (points, triangles); `like` is the scan: a path or an image. A surface whose frame is not known is taken as LPS. Returns
     label, name and voxels of each.
 
     >>> import mesamis, os, tempfile
@@ -673,7 +673,7 @@ def make_body(
     settings if given, else a tenth of the element size), `gradation` 0.05 to 5 and `wall_elements` 0 to
     10 as of the program, `quadratic` adds mid-side nodes. `sets` are texts as --set takes,
     "LOAD=top:z,2mm", in the frame of the result. `material` is a law ("keyak-1994"), `calibration` and
-    `ash` what --calibration and --ash take, `material_gap` MPa between the ends of a bin, `material_rim`
+    `ash` what --calibration and --ash take, the first also as (a, b), `material_gap` MPa between the ends of a bin, `material_rim`
     the depth that the surroundings dim, mm (default: from the scan's blur), `poisson` a ratio (default:
     the law's). `memory` limits the elements (GB). A promise that is missed is a MesamisWarning; the same
     arguments give the bytes of the program's --body.

@@ -61,6 +61,11 @@ class Body:
         return f"<mesamis.Body {len(self.nodes)} nodes, {len(self._body.corners)} elements>"
 
 
+def _calibration_text(given):
+    """What --calibration takes, of its text or of a and b."""
+    return ",".join(repr(float(x)) for x in given) if isinstance(given, (tuple, list)) else given
+
+
 def make_body(result, *, element_size=None, least_size=None, tolerance=None, gradation=None, wall_elements=None,
               quadratic=False, sets=None, material=None, calibration=None, ash=None, material_gap=None,
               material_rim=None, poisson=None, progress=None, threads=0, memory=0):
@@ -70,7 +75,7 @@ def make_body(result, *, element_size=None, least_size=None, tolerance=None, gra
     settings if given, else a tenth of the element size), `gradation` 0.05 to 5 and `wall_elements` 0 to
     10 as of the program, `quadratic` adds mid-side nodes. `sets` are texts as --set takes,
     "LOAD=top:z,2mm", in the frame of the result. `material` is a law ("keyak-1994"), `calibration` and
-    `ash` what --calibration and --ash take, `material_gap` MPa between the ends of a bin, `material_rim`
+    `ash` what --calibration and --ash take, the first also as (a, b), `material_gap` MPa between the ends of a bin, `material_rim`
     the depth that the surroundings dim, mm (default: from the scan's blur), `poisson` a ratio (default:
     the law's). `memory` limits the elements (GB). A promise that is missed is a MesamisWarning; the same
     arguments give the bytes of the program's --body.
@@ -86,7 +91,7 @@ def make_body(result, *, element_size=None, least_size=None, tolerance=None, gra
     wanted = {"element_size": element_size, "least_size": least_size, "tolerance": tolerance,
               "gradation": gradation, "wall_elements": wall_elements, "quadratic": bool(quadratic),
               "sets": sets if sets is None or isinstance(sets, str) else list(sets), "material": material,
-              "calibration": calibration, "ash": ash, "material_gap": material_gap,
+              "calibration": _calibration_text(calibration), "ash": ash, "material_gap": material_gap,
               "material_rim": material_rim, "poisson": poisson, "memory": float(memory)}
     with Follow(progress) as tell:
         body = Body(_core.make_body(result._run, wanted, tell, int(threads)), result.frame)

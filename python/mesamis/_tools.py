@@ -79,8 +79,8 @@ def _closed_objects(surface):
 def label(surfaces, like, path):
     """Writes closed surfaces as a label map (.nii .nii.gz .nrrd .seg.nrrd) on the grid of a scan.
 
-    `surfaces` is a dict of names and surfaces, each a path, a result, a Surface or (points, triangles);
-    `like` is the scan: a path or an image. A surface whose frame is not known is taken as LPS. Returns
+    `surfaces` is a result of several objects, or a dict of names and surfaces, each a path, a result, a
+    Surface or (points, triangles); `like` is the scan: a path or an image. A surface whose frame is not known is taken as LPS. Returns
     label, name and voxels of each.
 
     >>> import mesamis, os, tempfile
@@ -90,8 +90,13 @@ def label(surfaces, like, path):
     ...                                       os.path.join(folder, "mask.nii.gz"))]
     [(1, 'ball')]
     """
+    if isinstance(surfaces, LabelResult):
+        surfaces = {o.name: o for o in surfaces}
+    if not isinstance(surfaces, dict):
+        raise _core.InputError("surfaces: expected a dict of names and surfaces or a result of several objects, "
+                               f"found {type(surfaces).__name__}")
     parts = []
-    for name, surface in dict(surfaces).items():
+    for name, surface in surfaces.items():
         points, corners, frame = surface_parts(surface)
         turn = np.array([-1.0, -1.0, 1.0]) if frame == "ras" else 1.0
         parts.append((name, np.asarray(points, dtype=float) * turn, corners))

@@ -288,12 +288,26 @@ def test_phantoms_are_listed_and_refused():
         mesamis.phantom("sphere", size=2)
 
 
+def test_label_takes_a_result_of_several_objects(tmp_path):
+    labels = np.zeros((20, 20, 20), np.uint8)
+    labels[4:10, 4:16, 4:16], labels[10:16, 4:16, 4:16] = 1, 2
+    found = mesamis.segment(labels=labels, spacing=(1, 1, 1))
+    scan = mesamis.phantom("sphere", size=(20, 20, 20))
+    rows = mesamis.label(found, scan, tmp_path / "mask.nii.gz")
+    assert [row[:2] for row in rows] == [(1, "label 1"), (2, "label 2")]
+    with pytest.raises(mesamis.InputError, match="expected a dict of names and surfaces"):
+        mesamis.label(found["label 1"], scan, tmp_path / "mask.nii.gz")
+
+
 def test_a_body_with_materials(result):
     body = mesamis.make_body(result, element_size=3, quadratic=True, sets=["TOP=top:z,2mm"],
                              material="keyak-1994", calibration="0,0.001")
     assert body.elements.shape[1] == 10 and body.elements.max() < len(body.nodes)
     assert len(body.material) == len(body.part) == len(body.elements)
     assert body.materials[0][1] > 0 and len(body.sets["TOP"]) > 3
+    pair = mesamis.make_body(result, element_size=3, material="keyak-1994", calibration=(0, 0.001))
+    assert pair.materials == mesamis.make_body(result, element_size=3, material="keyak-1994",
+                                               calibration="0,0.001").materials
     with pytest.raises(mesamis.InputError, match="calibration"):
         mesamis.make_body(result, material="keyak-1994")
     with pytest.raises(mesamis.InputError, match="what segment"):
