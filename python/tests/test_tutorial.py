@@ -37,19 +37,13 @@ def thickness_script():
     return module
 
 
-def test_thickness_of_a_plate_of_large_triangles_is_that_of_the_plate():
-    """Also at its rims, and where no corner of a triangle is near: 8 x 6 x 0.5 mm, a few corners along the edges."""
-    x, y = np.linspace(0, 8, 9), np.linspace(0, 6, 7)
-    rim = [(a, 0) for a in x[:-1]] + [(8, b) for b in y[:-1]] + [(a, 6) for a in x[:0:-1]] + [(0, b) for b in y[:0:-1]]
-    n = len(rim)
-    points = np.array([(*p, z) for z in (0, 0.5) for p in rim] + [(4, 3, 0), (4, 3, 0.5)], dtype=float)
-    triangles = []
-    for i in range(n):
-        j = (i + 1) % n
-        triangles += [(j, i, 2 * n), (n + i, n + j, 2 * n + 1), (i, j, n + i), (j, n + j, n + i)]
-    values = thickness_script().thickness(points, np.array(triangles), count=20_000)
-    assert values.max() < 1, "no larger than a ball that touches a rim and the other side"
-    assert np.allclose(values[-2:], 0.5, atol=0.02)
+def test_no_thickness_exceeds_the_largest_ball_inside():
+    """Also not at the rims of a wall beside a ball of 1.2 mm: of 2.5 mm, and 0.015 to 0.15 mm thick."""
+    module = thickness_script()
+    found = mesamis.segment(mesamis.phantom("wall", spacing=(0.05, 0.05, 0.05), noise=5), preview=True)
+    surface = mesamis.decimate(found, tolerance=0.002)
+    values = module.thickness(np.array(surface.points), np.array(surface.triangles), count=20_000)
+    assert values.max() < 1.2 + 0.05, "but for a voxel"
 
 
 def test_thickness_of_a_ball_is_its_diameter():
