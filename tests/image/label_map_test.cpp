@@ -214,6 +214,15 @@ TEST(LabelMap, CountsTheVoxelsOfEachSegment) {
   EXPECT_EQ(voxel_counts(map), (std::vector<std::size_t>{1, 2, 1, 0}));
 }
 
+TEST(LabelMap, CountsNeighboursOfOtherLabels) {
+  LabelMap map;
+  map.size = {2, 2, 3};
+  map.layers = {{1, 1, 0, 0, 2, 1, 0, 0, 0, 0, 0, 0}};
+  const LabelPairs pairs = count_pairs(map);
+  EXPECT_EQ(pairs.all, 10U) << "2 along i, 4 along j, 4 along k";
+  EXPECT_EQ(pairs.different, 8U) << "1, 4 and 3";
+}
+
 TEST(LabelMap, LabelsAreWholeAndMostlyLikeTheirNeighbours) {
   const VoxelGrid row{{12, 1, 1}};
   const auto look = [&](const std::vector<float>& samples) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "mesamis/base/parallel.h"
 #include "support/level_set.h"
@@ -202,6 +203,26 @@ TEST(MissingObjects, AreNamedAndNoneAtAllIsRefused) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(&found[0].surface, &result.objects[0].surface);
   EXPECT_EQ(found[0].segment, hip);
+}
+
+/// Noise is told of, a stack of sheets and a solid object are not.
+TEST(NoiseWarnings, AreOfNoiseAlone) {
+  LabelMap map;
+  map.size = {40, 40, 40};
+  map.segments = {{"a", 1, 0, {}}, {"b", 2, 0, {}}};
+  const auto warnings_of = [&](const auto& label_at) {
+    map.layers.assign(1, {});
+    for (std::size_t n = 0; n < map.voxel_count(); ++n) {
+      map.layers[0].push_back(static_cast<std::uint16_t>(label_at(n)));
+    }
+    return noise_warnings(map);
+  };
+  std::mt19937 random(1);
+  EXPECT_THAT(warnings_of([&](std::size_t) { return random() % 3; }),
+              testing::ElementsAre(testing::HasSubstr("as in noise")));
+  EXPECT_THAT(warnings_of([](std::size_t n) { return n / 1600 % 2; }), testing::IsEmpty());
+  EXPECT_THAT(warnings_of([](std::size_t n) { return n > 20'000 ? 1 : 0; }), testing::IsEmpty());
+  EXPECT_THAT(warnings_of([](std::size_t) { return 0; }), testing::IsEmpty());
 }
 
 TEST(ChangedVolumes, AreToldOfSurfacesThatHoldMuchLessOrMoreThanTheirLabels) {

@@ -290,6 +290,23 @@ bool look_like_labels(const VoxelGrid& grid, std::span<const float> samples) {
   return static_cast<double>(equal) >= kMostlyEqual * static_cast<double>(pairs);
 }
 
+LabelPairs count_pairs(const LabelMap& map) {
+  const std::array<std::size_t, 3> steps{1, map.offset(0, 1, 0), map.offset(0, 0, 1)};
+  LabelPairs pairs;
+  for (const auto& labels : map.layers) {
+    for (std::size_t n = 0; n < labels.size(); ++n) {
+      const auto at = map.voxel(n);
+      for (std::size_t a = 0; a < 3; ++a) {
+        if (at[a] + 1 >= map.size[a]) continue;
+        const std::uint16_t here = labels[n], there = labels[n + steps[a]];
+        pairs.all += here != 0 || there != 0 ? 1U : 0U;
+        pairs.different += here != there ? 1U : 0U;
+      }
+    }
+  }
+  return pairs;
+}
+
 std::vector<std::size_t> voxel_counts(const LabelMap& map) {
   std::vector<std::vector<std::size_t>> counts(map.layers.size());
   for (std::size_t n = 0; n < map.layers.size(); ++n) {

@@ -113,6 +113,18 @@ LabelMap with_all_segments(LabelMap map);
 /// O(voxels).
 bool look_like_labels(const VoxelGrid& grid, std::span<const float> samples);
 
+/// Neighbouring voxels of a label map, at least one of them of an object.
+struct LabelPairs {
+  std::size_t all = 0;        ///< along all axes, in all layers
+  std::size_t different = 0;  ///< of them, whose labels differ
+};
+
+/// Counts neighbours: of thick objects few differ, of a sheet of one voxel half, of noise more.
+/// @throws nothing
+///
+/// O(voxels * layers).
+LabelPairs count_pairs(const LabelMap& map);
+
 /// Counts the voxels of the segments of the map, in their order.
 /// @throws nothing
 ///

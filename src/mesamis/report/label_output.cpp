@@ -156,6 +156,19 @@ std::vector<std::string> missing_objects(const LabelResult& result,
   return warnings;
 }
 
+std::vector<std::string> noise_warnings(const LabelMap& map) {
+  constexpr std::size_t kMany = 50'000;
+  constexpr double kShareOfNoise = 0.55;  // of a sheet of one voxel it is a half
+  const LabelPairs pairs = count_pairs(map);
+  const double share = static_cast<double>(pairs.different) / static_cast<double>(pairs.all);
+  if (pairs.different < kMany || share < kShareOfNoise) return {};
+  std::ostringstream text;
+  text.precision(2);
+  text << "labels: " << 100 * share << " % of neighbouring voxels differ, as in noise: the surface "
+       << "has about " << 2 * pairs.different << " triangles before decimation";
+  return {text.str()};
+}
+
 std::vector<std::string> changed_volumes(const LabelResult& result, const LabelMap& map) {
   const std::vector<std::size_t> voxels = voxel_counts(map);
   const double of_voxel = map.spacing.x * map.spacing.y * map.spacing.z;

@@ -26,6 +26,12 @@ std::vector<FoundObject> found_objects(const LabelResult& result);
 std::vector<std::string> missing_objects(const LabelResult& result,
                                          std::span<const Segment> wanted);
 
+/// A warning of a map whose voxels mostly have other labels than their neighbours, as in noise: its
+/// surfaces take long and show nothing. None of few voxels.
+///
+/// O(voxels * layers).
+std::vector<std::string> noise_warnings(const LabelMap& map);
+
 /// One warning per object whose surface holds less than 0.6 times what the voxels of its label
 /// hold, or that much more: as where the label lies partly beyond the scan, the image contradicts
 /// it, or thin parts were joined. Labels of less than 27 voxels are left out.

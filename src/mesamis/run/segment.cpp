@@ -45,6 +45,7 @@ void run_several(const Request& request, const LabelChoice& choice, const Listen
   if (request.enough) {
     throw InputError("time limit: expected a run for one object, found several");
   }
+  add_warnings(listener, outcome, noise_warnings(choice.map));
   const LabelRequest labels{choice.map, choice.chosen, choice.margin, request.mesh,
                             choice.exact_by ? &*choice.exact_by : nullptr};
   outcome.several = outcome.object
