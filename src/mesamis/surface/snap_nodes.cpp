@@ -58,33 +58,27 @@ class NodeSnapper {
     auto found = parallel_collect<std::pair<double, Index>>(
         mesh_.points.size(), kBlock, [&](std::size_t begin, std::size_t end, auto& out) {
           for (auto node = static_cast<Index>(begin); node < static_cast<Index>(end); ++node) {
-            const Index across = nearest_across(node);
-            if (across != kNoIndex && lies_inside_the_mesh(node)) {
-              out.emplace_back(share_to(node, across), node);
+            double nearest = 1;
+            for (const Index across : nodes_across(node)) {
+              nearest = std::min(nearest, share_to(node, across));
             }
+            if (nearest < 1 && lies_inside_the_mesh(node)) out.emplace_back(nearest, node);
           }
         });
     std::ranges::sort(found);
     return found;
   }
 
-  /// The node whose edge has the nearest crossing; none if no edge has one.
-  Index nearest_across(Index node) const {
-    Index nearest = kNoIndex;
-    for_nodes_across(node, [&](Index other) {
-      if (is_moved(other)) return;
-      if (nearest == kNoIndex || share_to(node, other) < share_to(node, nearest)) nearest = other;
-    });
-    return nearest;
-  }
-
-  template <class Visit>
-  void for_nodes_across(Index node, Visit&& visit) const {
+  /// The nodes at the other ends of edges that cross the level.
+  std::vector<Index> nodes_across(Index node) const {
+    std::vector<Index> across;
     for (const Index c : cells_.of(node)) {
       for (const Index other : mesh_.cells[c]) {
-        if (is_above(other) != is_above(node)) visit(other);
+        if (is_above(other) != is_above(node)) across.push_back(other);
       }
     }
+    sort_once(across);
+    return across;
   }
 
   /// Whether the cells around a node close around it.
@@ -108,9 +102,16 @@ class NodeSnapper {
   }
 
   void snap(Index node) {
-    const Index across = nearest_across(node);
-    if (across == kNoIndex) return;
-    snapped_.points[node] = crossing(node, across);
+    Vec3 sum{};
+    double weights = 0;
+    for (const Index across : nodes_across(node)) {
+      if (is_moved(across)) continue;
+      const double share = share_to(node, across), weight = 1 / (share * share);
+      sum += weight * crossing(node, across);
+      weights += weight;
+    }
+    if (weights == 0) return;
+    snapped_.points[node] = (1 / weights) * sum;
     snapped_.on_level[node] = 1;
     if (keeps_cells(node) && keeps_surface(node)) return;
     snapped_.points[node] = mesh_.points[node];
@@ -129,16 +130,18 @@ class NodeSnapper {
 
   /// Whether the surface around a moved node and around those beside it is still what it was.
   bool keeps_surface(Index node) {
-    std::vector<Index> changed;
+    if (!is_kept_at(node)) return false;
+    std::vector<Index> beside;
     for (const Index c : cells_.of(node)) {
       for (const Index other : mesh_.cells[c]) {
-        if (is_moved(other)) changed.push_back(other);
+        if (other != node && is_moved(other)) beside.push_back(other);
       }
     }
-    sort_once(changed);
-    return std::ranges::all_of(changed,
-                               [&](Index n) { return goes_around_once(n) && stays_near(n); });
+    sort_once(beside);
+    return std::ranges::all_of(beside, [this](Index other) { return is_kept_at(other); });
   }
+
+  bool is_kept_at(Index node) { return goes_around_once(node) && stays_near(node); }
 
   /// Whether the surface goes around a moved node once: its pieces opposite the node are one closed line
   /// that passes each of its points once.
@@ -183,9 +186,8 @@ class NodeSnapper {
                                     place(piece.second)}) <= distance_ * distance_;
       });
     };
-    bool near = true;
-    for_nodes_across(node, [&](Index other) { near = near && is_near(crossing(node, other)); });
-    return near;
+    return std::ranges::all_of(nodes_across(node),
+                               [&](Index across) { return is_near(crossing(node, across)); });
   }
 
   const TetMesh& mesh_;

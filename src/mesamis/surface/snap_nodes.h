@@ -18,10 +18,11 @@ struct SnappedNodes {
 /// Moves nodes onto the level set of u, so that all crossings of their edges become one point: about
 /// half the triangles carry the same shape (after isosurface stuffing, Labelle and Shewchuk 2007).
 ///
-/// Nodes go to the crossing that is nearest in shares of their edges, those with the nearest first. A
-/// node inside the mesh is moved if every cell around it keeps a fifth of its volume, the surface still
-/// goes once around it and around each moved node beside it, and all crossings of their edges lie within
-/// the distance of it. So the surface keeps its topology, and does not cut itself.
+/// A node goes to the mean of the crossings of its edges, weighted by 1 / t^2 for a crossing at the share
+/// t of an edge; the nodes with the least t first. It is moved if it lies inside the mesh, every cell
+/// around it keeps a fifth of its volume, the surface still goes once around it and around each moved
+/// node beside it, and all crossings of their edges lie within the distance of it. So the surface keeps
+/// its topology, and does not cut itself.
 /// @param mesh      a valid mesh or a part of one, n nodes, m cells.
 /// @param u         n values of any unit, finite.
 /// @param level     in the unit of u, finite.
