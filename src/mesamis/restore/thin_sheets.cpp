@@ -381,10 +381,10 @@ class SheetFinder {
 
 /// What is found of sheets in each slice, by increasing voxel.
 std::vector<std::vector<FoundAt>> find_sheets(const SheetFinder& finder, const VoxelGrid& grid) {
-  const auto [nx, ny, nz] = grid.size;
-  std::vector<std::vector<FoundAt>> slices(static_cast<std::size_t>(nz));
+  std::vector<std::vector<FoundAt>> slices(static_cast<std::size_t>(grid.size[2]));
+  const std::size_t voxels = grid.voxel_count() / slices.size();  // of a slice
   parallel_for_each(slices.size(), [&](std::size_t k) {
-    for (std::size_t n = 0; n < static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); ++n) {
+    for (std::size_t n = 0; n < voxels; ++n) {
       const auto [i, j, first] = grid.voxel(n);
       const auto found = finder.at({i, j, first + static_cast<Index>(k)});
       if (!found) continue;

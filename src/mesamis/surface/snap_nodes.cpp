@@ -119,12 +119,12 @@ class NodeSnapper {
   }
 
   bool keeps_cells(Index node) const {
+    const auto volume = [](const std::vector<Vec3>& points, const Cell& cell) {
+      return six_volume(points[cell[0]], points[cell[1]], points[cell[2]], points[cell[3]]);
+    };
     return std::ranges::all_of(cells_.of(node), [&](Index c) {
-      const auto& [i, j, k, l] = mesh_.cells[c];
-      const auto volume = [&](const std::vector<Vec3>& p) {
-        return six_volume(p[i], p[j], p[k], p[l]);
-      };
-      return volume(snapped_.points) >= kLeastVolume * volume(mesh_.points);
+      const Cell& cell = mesh_.cells[c];
+      return volume(snapped_.points, cell) >= kLeastVolume * volume(mesh_.points, cell);
     });
   }
 
