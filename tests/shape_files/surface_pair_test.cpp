@@ -32,7 +32,7 @@ TEST(PairUp, TurnsAndSaysSo) {
   EXPECT_EQ(pair.surface.points, reference.points);
   EXPECT_EQ(pair.frame(), Frame::kLps);
   ASSERT_EQ(pair.warnings.size(), 1u);
-  EXPECT_EQ(pair.warnings[0], "it: turned from RAS to LPS, as the files state");
+  EXPECT_EQ(pair.warnings[0], "it: turned from RAS to LPS, as both state");
 }
 
 TEST(PairUp, WhatFitsNeedsNoWarning) {

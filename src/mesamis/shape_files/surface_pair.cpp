@@ -50,7 +50,7 @@ std::string nearness(const FlipFound& found) {
 
 std::string turn_warning(const std::string& name, const SurfacePair& pair) {
   return name + ": turned from " + frame_name(*pair.surface_frame) + " to " +
-         frame_name(*pair.reference_frame) + ", as the files state";
+         frame_name(*pair.reference_frame) + ", as both state";
 }
 
 /// The objects whose name no other one of the file has.
