@@ -560,8 +560,8 @@ def label(
     """Writes closed surfaces as a label map (.nii .nii.gz .nrrd .seg.nrrd) on the grid of a scan.
 
     `surfaces` is a result of several objects, or a dict of names and surfaces, each a path, a result, a
-    Surface or (points, triangles); `like` is the scan: a path or an image. A surface whose frame is not known is taken as LPS. Returns
-    label, name and voxels of each.
+    Surface or (points, triangles); `like` is the scan: a path or an image. A surface whose frame is not
+    known is taken as LPS. Returns label, name and voxels of each.
 
     >>> import mesamis, os, tempfile
     >>> scan = mesamis.phantom("sphere", size=(20, 20, 20))
@@ -673,10 +673,10 @@ def make_body(
     settings if given, else a tenth of the element size), `gradation` 0.05 to 5 and `wall_elements` 0 to
     10 as of the program, `quadratic` adds mid-side nodes. `sets` are texts as --set takes,
     "LOAD=top:z,2mm", in the frame of the result. `material` is a law ("keyak-1994"), `calibration` and
-    `ash` what --calibration and --ash take, the first also as (a, b), `material_gap` MPa between the ends of a bin, `material_rim`
-    the depth that the surroundings dim, mm (default: from the scan's blur), `poisson` a ratio (default:
-    the law's). `memory` limits the elements (GB). A promise that is missed is a MesamisWarning; the same
-    arguments give the bytes of the program's --body.
+    `ash` what --calibration and --ash take, the first also as (a, b), `material_gap` MPa between the ends
+    of a bin, `material_rim` the depth that the surroundings dim, mm (default: from the scan's blur),
+    `poisson` a ratio (default: the law's). `memory` limits the elements (GB). A promise that is missed is
+    a MesamisWarning; the same arguments give the bytes of the program's --body.
 
     >>> import mesamis
     >>> ball = mesamis.segment(mesamis.phantom("sphere", size=(24, 24, 24)), preview=True)

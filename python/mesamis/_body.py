@@ -75,10 +75,10 @@ def make_body(result, *, element_size=None, least_size=None, tolerance=None, gra
     settings if given, else a tenth of the element size), `gradation` 0.05 to 5 and `wall_elements` 0 to
     10 as of the program, `quadratic` adds mid-side nodes. `sets` are texts as --set takes,
     "LOAD=top:z,2mm", in the frame of the result. `material` is a law ("keyak-1994"), `calibration` and
-    `ash` what --calibration and --ash take, the first also as (a, b), `material_gap` MPa between the ends of a bin, `material_rim`
-    the depth that the surroundings dim, mm (default: from the scan's blur), `poisson` a ratio (default:
-    the law's). `memory` limits the elements (GB). A promise that is missed is a MesamisWarning; the same
-    arguments give the bytes of the program's --body.
+    `ash` what --calibration and --ash take, the first also as (a, b), `material_gap` MPa between the ends
+    of a bin, `material_rim` the depth that the surroundings dim, mm (default: from the scan's blur),
+    `poisson` a ratio (default: the law's). `memory` limits the elements (GB). A promise that is missed is
+    a MesamisWarning; the same arguments give the bytes of the program's --body.
 
     >>> import mesamis
     >>> ball = mesamis.segment(mesamis.phantom("sphere", size=(24, 24, 24)), preview=True)

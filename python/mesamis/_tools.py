@@ -80,8 +80,8 @@ def label(surfaces, like, path):
     """Writes closed surfaces as a label map (.nii .nii.gz .nrrd .seg.nrrd) on the grid of a scan.
 
     `surfaces` is a result of several objects, or a dict of names and surfaces, each a path, a result, a
-    Surface or (points, triangles); `like` is the scan: a path or an image. A surface whose frame is not known is taken as LPS. Returns
-    label, name and voxels of each.
+    Surface or (points, triangles); `like` is the scan: a path or an image. A surface whose frame is not
+    known is taken as LPS. Returns label, name and voxels of each.
 
     >>> import mesamis, os, tempfile
     >>> scan = mesamis.phantom("sphere", size=(20, 20, 20))

@@ -292,19 +292,28 @@ bool look_like_labels(const VoxelGrid& grid, std::span<const float> samples) {
 
 LabelPairs count_pairs(const LabelMap& map) {
   const std::array<std::size_t, 3> steps{1, map.offset(0, 1, 0), map.offset(0, 0, 1)};
-  LabelPairs pairs;
+  LabelPairs sum;
   for (const auto& labels : map.layers) {
-    for (std::size_t n = 0; n < labels.size(); ++n) {
-      const auto at = map.voxel(n);
-      for (std::size_t a = 0; a < 3; ++a) {
-        if (at[a] + 1 >= map.size[a]) continue;
-        const std::uint16_t here = labels[n], there = labels[n + steps[a]];
-        pairs.all += here != 0 || there != 0 ? 1U : 0U;
-        pairs.different += here != there ? 1U : 0U;
-      }
+    const auto of_blocks = parallel_collect<LabelPairs>(
+        labels.size(), kBlock, [&](std::size_t begin, std::size_t end, auto& out) {
+          LabelPairs pairs;
+          for (std::size_t n = begin; n < end; ++n) {
+            const auto at = map.voxel(n);
+            for (std::size_t a = 0; a < 3; ++a) {
+              if (at[a] + 1 >= map.size[a]) continue;
+              const std::uint16_t here = labels[n], there = labels[n + steps[a]];
+              pairs.all += here != 0 || there != 0 ? 1U : 0U;
+              pairs.different += here != there ? 1U : 0U;
+            }
+          }
+          out.push_back(pairs);
+        });
+    for (const LabelPairs& pairs : of_blocks) {
+      sum.all += pairs.all;
+      sum.different += pairs.different;
     }
   }
-  return pairs;
+  return sum;
 }
 
 std::vector<std::size_t> voxel_counts(const LabelMap& map) {

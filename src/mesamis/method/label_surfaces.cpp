@@ -124,6 +124,11 @@ GridMemberships without_image(const LabelRun& run, const VoxelGrid& grid,
   return found;
 }
 
+/// Whether the image places the boundary of a pair; else the labels do.
+bool is_followed(const LabelRun& run, const PairLevel& pair, double noise) {
+  return run.settings.follow && shows_edge(pair, noise);
+}
+
 std::vector<LabelBoundary> boundaries_of(const LabelRun& run, Index layer,
                                          const std::vector<PairLevel>& pairs,
                                          const RunInput& input) {
@@ -138,7 +143,7 @@ std::vector<LabelBoundary> boundaries_of(const LabelRun& run, Index layer,
     }
     found.push_back({name_of(map, layer, one), name_of(map, layer, other),
                      grey.to_native(pair.level), pair.contrast / grey.grey_per_native(),
-                     run.settings.follow && shows_edge(pair, input.noise)});
+                     is_followed(run, pair, input.noise)});
   }
   return found;
 }
@@ -148,7 +153,7 @@ std::vector<char> labels_placed(const LabelRun& run, const std::vector<PairLevel
                                 double noise) {
   std::vector<char> placed(std::size_t{kMaxLabel} + 1, 0);
   for (const PairLevel& pair : pairs) {
-    if (!run.settings.follow || !shows_edge(pair, noise)) continue;
+    if (!is_followed(run, pair, noise)) continue;
     for (const Index side : pair.sides) placed[static_cast<std::size_t>(side)] = 1;
   }
   return placed;

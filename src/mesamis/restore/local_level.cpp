@@ -10,6 +10,7 @@
 #include "mesamis/image/grey_values.h"
 #include "mesamis/image/trilinear.h"
 #include "mesamis/restore/level_crossings.h"
+#include "mesamis/restore/spread_voxels.h"
 
 namespace mesamis::detail::restore {
 namespace {
@@ -55,13 +56,9 @@ double deviation_around(const VolumeView& volume, Index i, Index j, Index k) {
 /// The standard deviation in even tissue, native units: what undoing the blur has made of noise that
 /// neighbours share. 0: there is no such tissue.
 double noise_in_even_tissue(const VolumeView& volume, const ObjectContrast& contrast) {
-  const auto [nx, ny, nz] = volume.size;
-  const std::size_t every = std::max<std::size_t>(1, volume.voxel_count() / kLookedAt);
   std::vector<float> deviations;
-  for (std::size_t voxel = 0; voxel < volume.voxel_count(); voxel += every) {
-    const auto [i, j, k] = volume.voxel(voxel);
-    if (i < 1 || j < 1 || k < 1 || i + 1 >= nx || j + 1 >= ny || k + 1 >= nz) continue;
-    const double above = volume.samples[voxel] - contrast.background;
+  for (const auto& [i, j, k] : spread_voxels(volume, kLookedAt)) {
+    const double above = volume.at(i, j, k) - contrast.background;
     if (std::abs(above) > kEven * contrast.difference()) continue;
     deviations.push_back(static_cast<float>(deviation_around(volume, i, j, k)));
   }

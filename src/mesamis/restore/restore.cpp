@@ -79,6 +79,14 @@ std::array<double, 3> undoable(const std::array<double, 3>& blur) {
   return undone;
 }
 
+/// What means along the surface have of the noise, after a blur was undone.
+void find_surface_noise(Restored& restored, const std::array<double, 3>& undone,
+                        double regularization) {
+  restored.surface_noise =
+      noise_gain_along_surface(undone, regularization, restored.noise_correlation);
+  for (double& along : restored.surface_noise) along *= restored.noise;
+}
+
 /// Undoes the blur that was found, also in thin sheets.
 /// @param guide  the scan, smoothed.
 void undo_blur(Restored& restored, const Volume& guide, const ObjectContrast& contrast) {
@@ -93,9 +101,7 @@ void undo_blur(Restored& restored, const Volume& guide, const ObjectContrast& co
     restored.volume = deblurred(std::move(restored.volume), undone, *sheets.regularization);
     restored.noise_left *= noise_gain(undone, *sheets.regularization);
   }
-  restored.surface_noise = noise_gain_along_surface(
-      sheets.undone, sheets.regularization.value_or(1), restored.noise_correlation);
-  for (double& along : restored.surface_noise) along *= restored.noise;
+  find_surface_noise(restored, sheets.undone, sheets.regularization.value_or(1));
   if (square > 0) lift_thin_sheets(restored.volume, guide, sheets);
 }
 
@@ -139,8 +145,7 @@ Restored restore(Volume volume, const HalfMaximumLevel& object, const RestoreOpt
   if (!(object.contrast.difference() > 0)) {
     if (!options.noise) restored.noise = measure_noise(restored.volume);
     restored.noise_left = restored.noise;
-    restored.surface_noise = noise_gain_along_surface({}, 1, {});
-    for (double& along : restored.surface_noise) along *= restored.noise;
+    find_surface_noise(restored, {}, 1);
     return restored;
   }
   const Guide guide = clean(restored, object, options);

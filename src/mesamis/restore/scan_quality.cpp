@@ -11,6 +11,7 @@
 #include "mesamis/image/spline_image.h"
 #include "mesamis/restore/edge_profile.h"
 #include "mesamis/restore/object_contrast.h"
+#include "mesamis/restore/spread_voxels.h"
 
 namespace mesamis::detail::restore {
 namespace {
@@ -213,13 +214,9 @@ double measure_noise(const VolumeView& volume, const VolumeView& guide,
 }
 
 double measure_noise(const VolumeView& volume) {
-  const auto [nx, ny, nz] = volume.size;
-  const std::size_t every = std::max<std::size_t>(1, volume.voxel_count() / kLookedAt);
   std::vector<double> deviations;
-  for (std::size_t n = 0; n < volume.voxel_count(); n += every) {
-    const auto [i, j, k] = volume.voxel(n);
-    if (i < 1 || j < 1 || k < 1 || i + 1 >= nx || j + 1 >= ny || k + 1 >= nz) continue;
-    deviations.push_back(deviation_at(volume, {i, j, k}));
+  for (const auto& voxel : spread_voxels(volume, kLookedAt)) {
+    deviations.push_back(deviation_at(volume, voxel));
   }
   return deviations.empty() ? 0 : noise_of(deviations);
 }

@@ -21,4 +21,10 @@ inline double kept_off_ends(double t) noexcept {
   return t > kCrossingMargin ? std::min(t, 1 - kCrossingMargin) : kCrossingMargin;
 }
 
+/// The same of a linear function that is `level` between the values at the ends.
+inline double crossing_share(double level, double from, double to) noexcept {
+  // Halves, since the difference of two large values may overflow.
+  return kept_off_ends((0.5 * level - 0.5 * from) / (0.5 * to - 0.5 * from));
+}
+
 }  // namespace mesamis::detail::surface

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "mesamis/base/each_once.h"
@@ -39,11 +40,9 @@ class Marcher {
   /// The surface's position at a site.
   Vec3 position(Site site) const {
     const Index a = site_begin(site), b = site_end(site);
-    if (a == b) return snapped_.points.empty() ? mesh_.points[a] : snapped_.points[a];
     const Vec3& p = mesh_.points[a];
-    // Halves, since the difference of two large values may overflow.
-    const double t = (0.5 * level_ - 0.5 * u_[a]) / (0.5 * u_[b] - 0.5 * u_[a]);
-    return p + kept_off_ends(t) * (mesh_.points[b] - p);
+    if (a == b) return is_snapped(a) ? snapped_->points[a] : p;
+    return p + crossing_share(level_, u_[a], u_[b]) * (mesh_.points[b] - p);
   }
 
   /// Appends the level set's triangles in the cell, and the caps on its box faces.
@@ -85,9 +84,7 @@ class Marcher {
     return is_snapped(b) ? site_on(b, b) : site_on(a, b);
   }
 
-  bool is_snapped(Index node) const {
-    return !snapped_.on_level.empty() && snapped_.on_level[node] != 0;
-  }
+  bool is_snapped(Index node) const { return snapped_ && snapped_->on_level[node] != 0; }
 
   /// Unless corners became one point.
   static void add(const SiteTriangle& t, std::vector<SiteTriangle>& out) {
@@ -136,14 +133,12 @@ class Marcher {
   std::span<const double> u_;
   double level_;
   std::vector<std::uint8_t> planes_;  // empty: no caps
-  SnappedNodes snapped_;              // empty: none
+  std::optional<SnappedNodes> snapped_;
 };
 
 Vec3 exact_position(const TetMesh& mesh, Site site,
                     const std::function<double(const Vec3&, const Vec3&)>& crossing) {
-  const Vec3& a = mesh.points[site_begin(site)];
-  const Vec3& b = mesh.points[site_end(site)];
-  if (site_begin(site) == site_end(site)) return a;
+  const Vec3 &a = mesh.points[site_begin(site)], &b = mesh.points[site_end(site)];
   const double t = std::clamp(crossing(a, b), kExactCrossingMargin, 1 - kExactCrossingMargin);
   return a + t * (b - a);
 }
@@ -190,8 +185,10 @@ TriMesh extract_solid(const TetMesh& mesh, std::span<const double> u, double lev
   TriMesh surface;
   surface.points.resize(sites.size());
   parallel_for(sites.size(), [&](std::size_t i) {
-    surface.points[i] = options.crossing ? exact_position(mesh, sites[i], options.crossing)
-                                         : marcher.position(sites[i]);
+    const bool on_edge = site_begin(sites[i]) != site_end(sites[i]);
+    surface.points[i] = on_edge && options.crossing
+                            ? exact_position(mesh, sites[i], options.crossing)
+                            : marcher.position(sites[i]);
   });
   surface.triangles.resize(triangles.size());
   parallel_for(triangles.size(), [&](std::size_t t) {

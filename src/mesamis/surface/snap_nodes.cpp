@@ -46,7 +46,7 @@ class NodeSnapper {
 
   /// Of the edge to a node across the level, what lies before the crossing.
   double share_to(Index node, Index across) const {
-    return kept_off_ends((0.5 * level_ - 0.5 * u_[node]) / (0.5 * u_[across] - 0.5 * u_[node]));
+    return crossing_share(level_, u_[node], u_[across]);
   }
   Vec3 crossing(Index node, Index across) const {
     const Vec3& p = mesh_.points[node];
@@ -129,7 +129,7 @@ class NodeSnapper {
   }
 
   /// Whether the surface around a moved node and around those beside it is still what it was.
-  bool keeps_surface(Index node) {
+  bool keeps_surface(Index node) const {
     if (!is_kept_at(node)) return false;
     std::vector<Index> beside;
     for (const Index c : cells_.of(node)) {
@@ -141,25 +141,27 @@ class NodeSnapper {
     return std::ranges::all_of(beside, [this](Index other) { return is_kept_at(other); });
   }
 
-  bool is_kept_at(Index node) { return goes_around_once(node) && stays_near(node); }
-
-  /// Whether the surface goes around a moved node once: its pieces opposite the node are one closed line
-  /// that passes each of its points once.
-  bool goes_around_once(Index node) {
-    find_pieces(node);
-    if (pieces_.size() < 3) return false;
-    LinkPoint at = pieces_[0].first;
-    for (std::size_t steps = 0; steps < pieces_.size(); ++steps) {
-      if (steps > 0 && at == pieces_[0].first) return false;
-      const auto is_next = [&](const LinkPiece& piece) { return piece.first == at; };
-      if (std::ranges::count_if(pieces_, is_next) != 1) return false;
-      at = std::ranges::find_if(pieces_, is_next)->second;
-    }
-    return at == pieces_[0].first;
+  bool is_kept_at(Index node) const {
+    const std::vector<LinkPiece> pieces = pieces_opposite(node);
+    return is_one_line(pieces) && stays_near(node, pieces);
   }
 
-  void find_pieces(Index node) {
-    pieces_.clear();
+  /// Whether pieces are one closed line that passes each of its points once: the surface then goes
+  /// around the node once.
+  static bool is_one_line(const std::vector<LinkPiece>& pieces) {
+    if (pieces.size() < 3) return false;
+    LinkPoint at = pieces[0].first;
+    for (std::size_t steps = 0; steps < pieces.size(); ++steps) {
+      if (steps > 0 && at == pieces[0].first) return false;
+      const auto is_next = [&](const LinkPiece& piece) { return piece.first == at; };
+      if (std::ranges::count_if(pieces, is_next) != 1) return false;
+      at = std::ranges::find_if(pieces, is_next)->second;
+    }
+    return at == pieces[0].first;
+  }
+
+  std::vector<LinkPiece> pieces_opposite(Index node) const {
+    std::vector<LinkPiece> pieces;
     const auto point = [&](Index inside, Index outside) {
       return LinkPoint{is_moved(outside) ? outside : inside, outside};
     };
@@ -171,17 +173,18 @@ class NodeSnapper {
         if (is_inside(a) && !is_inside(b)) piece.first = point(a, b);
         if (!is_inside(a) && is_inside(b)) piece.second = point(b, a);
       }
-      if (piece.first != piece.second) pieces_.push_back(piece);
+      if (piece.first != piece.second) pieces.push_back(piece);
     }
+    return pieces;
   }
 
-  /// Whether what crossed the node's edges lies near the triangles of the pieces found.
-  bool stays_near(Index node) const {
+  /// Whether what crossed the node's edges lies near the triangles between the node and the pieces.
+  bool stays_near(Index node, const std::vector<LinkPiece>& pieces) const {
     const auto place = [&](const LinkPoint& p) {
       return p.first == p.second ? snapped_.points[p.first] : crossing(p.first, p.second);
     };
     const auto is_near = [&](const Vec3& p) {
-      return std::ranges::any_of(pieces_, [&](const LinkPiece& piece) {
+      return std::ranges::any_of(pieces, [&](const LinkPiece& piece) {
         return squared_distance(p, {snapped_.points[node], place(piece.first),
                                     place(piece.second)}) <= distance_ * distance_;
       });
@@ -195,7 +198,6 @@ class NodeSnapper {
   double level_, distance_;
   PointCells cells_;
   SnappedNodes snapped_;
-  std::vector<LinkPiece> pieces_;
 };
 
 }  // namespace
