@@ -230,6 +230,84 @@ TEST(MakeBody, ASmallObjectIsNoSmallPart) {
   EXPECT_GT(std::ranges::count(body.elements.materials, Material{2}), 0);
 }
 
+/// A ball with something thin at its top: a cone or a rod that is as wide at its foot, a pit of
+/// that width, or a rim around the equator that is as thick.
+enum class Thin { kCone, kRod, kPit, kRim };
+
+TriMesh ball_with(Thin kind, double width, double length) {
+  constexpr int kSteps = 24;
+  const double half = 0.5 * width;
+  const double foot = std::asin(half / kRadius);  // as an angle at the ball's centre
+  std::vector<ProfilePoint> profile;
+  const auto arc = [&](double from, double to) {  // angles from the z axis
+    for (int i = 0; i <= kSteps; ++i) {
+      const double angle = from + (to - from) * i / kSteps;
+      const double radius = i == 0 && angle >= std::numbers::pi ? 0 : kRadius * std::sin(angle);
+      profile.push_back({radius, kRadius * std::cos(angle)});
+    }
+  };
+  if (kind == Thin::kRim) {
+    arc(std::numbers::pi, 0.5 * std::numbers::pi + foot);
+    profile.push_back({kRadius + length, -half});
+    profile.push_back({kRadius + length, half});
+    arc(0.5 * std::numbers::pi - foot, 0);
+    profile.back().radius = 0;
+    return revolved(profile, 64);
+  }
+  arc(std::numbers::pi, foot);
+  if (kind == Thin::kRod) profile.push_back({half, kRadius + length});
+  profile.push_back({0, kRadius + (kind == Thin::kPit ? -length : length)});
+  return revolved(profile, 64);
+}
+
+/// How wide a cone or a pit is where the skin ends, that misses its tip by a distance.
+double width_at(double missed, double width, double length) { return width * missed / length; }
+
+/// Things longer than the tolerance are kept down to the smallest elements that were tried, which
+/// are there alone.
+TEST(MakeBody, ThinThingsAreKept) {
+  constexpr double kLength = 4, kNarrow = 2;
+  const TriMesh ball = ball_surface(kRadius, 64);
+  BodyOptions options = of_size(6);
+  options.tolerance = 0.3;
+  const auto plain = make_body(std::vector{ball}, box_around(ball), options).quality.elements;
+  for (const Thin kind : {Thin::kCone, Thin::kRod, Thin::kPit, Thin::kRim}) {
+    for (const double width : {0.4, 0.8, 1.6}) {
+      SCOPED_TRACE(testing::Message() << "kind " << static_cast<int>(kind) << ", width " << width);
+      const bool is_rim = kind == Thin::kRim;
+      const TriMesh surface = ball_with(kind, width, is_rim ? 1 : kLength);
+      ASSERT_EQ(solid_flaws_of(check_surface(surface)), "");
+      const MeshedBody body = make_body(std::vector{surface}, box_around(surface), options);
+      const TriMesh skin = body_skin(body.elements);
+      expect_closed_skin(skin);
+      expect_good_elements(body);
+      EXPECT_LT(body.fit.skin_to_surface, options.tolerance);
+      const double missed = body.fit.surface_to_skin;
+      if (missed > options.tolerance) {
+        EXPECT_TRUE(kind == Thin::kCone || kind == Thin::kPit) << missed;
+        EXPECT_LT(width_at(missed, width, kLength), kNarrow * body.least_size) << missed;
+        EXPECT_LT(body.least_size, 0.2) << missed;
+      }
+      EXPECT_LT(body.quality.elements, (is_rim ? 20 : 2) * plain);
+      std::printf("kind %d width %.1f: cells %lld plain %lld f2s %.3f s2f %.3f least %.3f\n",
+                  int(kind), width, (long long)body.quality.elements, (long long)plain,
+                  body.fit.surface_to_skin, body.fit.skin_to_surface, body.least_size);
+    }
+  }
+}
+
+/// A rod thinner than the least size that is asked for is lost, and nothing is made twice.
+TEST(MakeBody, ALeastSizeThatIsGivenIsKept) {
+  const TriMesh surface = ball_with(Thin::kRod, 0.4, 4);
+  BodyOptions options = of_size(6);
+  options.tolerance = 0.3;
+  options.least_size = 1.5;
+  const MeshedBody body = make_body(std::vector{surface}, box_around(surface), options);
+  EXPECT_EQ(body.least_size, 1.5);
+  EXPECT_GT(body.fit.surface_to_skin, 3);
+  EXPECT_LT(body.fit.skin_to_surface, options.tolerance);
+}
+
 TEST(MakeBody, RefusesMoreElementsThanMayBeMade) {
   const TriMesh surface = ball_surface(kRadius, 40);
   BodyOptions options = of_size(3);

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "mesamis/base/parallel.h"
 #include "support/solids.h"
@@ -161,6 +163,26 @@ TEST(SizeField, IsTheSameForAnyNumberOfThreads) {
   };
   const auto once = with_threads(1, sizes);
   EXPECT_EQ(with_threads(4, sizes), once);
+}
+
+/// Around a wanted size the field grows with the gradation; far away it is as before.
+TEST(RefinedSizes, AreSmallWhereWantedAndNowhereElse) {
+  const Box box{{0, 0, 0}, {20, 20, 20}};
+  constexpr std::size_t kNodes = 8;
+  const float log = -2 * std::log(3.0F);
+  const detail::mesh::GridMetricField sizes(
+      box, {2, 2, 2}, std::vector(kNodes, std::array{log, 0.0F, 0.0F, log, 0.0F, log}));
+  const detail::body::WantedSize place{{10, 10, 10}, 0.5};
+  const auto finer = detail::body::refined(sizes, box, {&place, 1}, coarse());
+  Index hint = 0;
+  const auto at = [&](double x) { return detail::body::size_at(finer, {x, 10, 10}, hint); };
+  EXPECT_NEAR(at(10), 0.5, 1e-3);
+  for (const double away : {1.0, 2.0, 4.0}) {
+    EXPECT_LT(at(10 + away), 0.5 + coarse().gradation * away + 1e-3);
+    EXPECT_GT(at(10 + away), 0.5 + coarse().gradation * (away - 1) - 1e-3);
+  }
+  EXPECT_NEAR(at(16.5), 3, 1e-3);
+  EXPECT_NEAR(at(1), 3, 1e-3);
 }
 
 }  // namespace

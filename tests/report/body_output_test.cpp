@@ -223,17 +223,22 @@ TEST(BodyOutput, TellsWhatIsMissing) {
   EXPECT_EQ(body.elements.sets.size(), 1U);
   body.facts.quality.least_angle = 5;
   body.facts.fit.surface_to_skin = 0.5;
-  EXPECT_THAT(unmet(body),
-              testing::StartsWith("expected dihedral angles of at least 10.7, found 5; expected a "
-                                  "distance to the surface, mm, of at most 0.2, found 0.5; set"));
+  EXPECT_THAT(
+      unmet(body),
+      testing::StartsWith(
+          "expected dihedral angles of at least 10.7, found 5; expected a "
+          "distance to the surface, mm, of at most 0.2, found 0.5, with elements down to 0.75 mm; "
+          "set"));
   body.tolerance = 0.1 + 0.2;
   body.facts.fit.surface_to_skin = 0.5123456789;
-  EXPECT_THAT(unmet(body), testing::HasSubstr("at most 0.3, found 0.5123; set"));
+  EXPECT_THAT(unmet(body),
+              testing::HasSubstr("at most 0.3, found 0.5123, with elements down to 0.75 mm; set"));
   body.facts.parts_dropped = 1;
   EXPECT_THAT(unmet(body), testing::HasSubstr("found 0.5123, with 1 part of the objects that was "
-                                              "dropped; set"));
+                                              "dropped and elements down to 0.75 mm; set"));
   body.facts.parts_dropped = 2;
-  EXPECT_THAT(unmet(body), testing::HasSubstr("with 2 parts of the objects that were dropped; "));
+  EXPECT_THAT(unmet(body),
+              testing::HasSubstr("with 2 parts of the objects that were dropped and "));
   body.facts.quality.least_angle = 10.6999996;
   EXPECT_THAT(unmet(body), testing::HasSubstr("at least 10.7, found 10.6999996; "));
   request.sets.clear();

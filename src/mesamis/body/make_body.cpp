@@ -13,6 +13,7 @@
 #include "mesamis/base/stopwatch.h"
 #include "mesamis/base/written_number.h"
 #include "mesamis/body/body_surface.h"
+#include "mesamis/body/missed_places.h"
 #include "mesamis/body/size_field.h"
 #include "mesamis/mesh/region.h"
 #include "mesamis/surface/measure.h"
@@ -116,6 +117,131 @@ void require_elements_fit(const MetricField& sizes, const Box& box, const BodyOp
                    number_text(std::ceil(100 * size * std::cbrt(asked / most)) / 100) + " mm");
 }
 
+/// Progress of work of unknown length at the end.
+Progress end_of(const Progress& whole) {
+  if (!whole) return {};
+  return [whole](std::string_view stage, double) { return whole(stage, 1); };
+}
+
+/// The greatest distance between skin and surfaces, either way.
+double distance_of(const MeshedBody& body) {
+  return std::max(body.fit.skin_to_surface, body.fit.surface_to_skin);
+}
+
+/// Makes a body, and again with smaller elements where it misses its surfaces: tips and pits that
+/// lie between the edges of the start are lost when it is cut.
+class BodyMaker {
+ public:
+  BodyMaker(std::span<const TriMesh> surfaces, const Box& box, const BodyOptions& options)
+      : surfaces_(surfaces),
+        box_(box),
+        options_(options),
+        rules_(size_rules(options, longest_side(surfaces))),
+        shape_(surfaces, box, rules_.tolerance),
+        sizes_(size_field(surfaces, shape_, box, rules_)),
+        start_(coarse_box_mesh(box)) {
+    require_elements_fit(sizes_, box, options, rules_.target);
+    seconds_.sizes = watch_.lap();
+  }
+
+  MeshedBody make() {
+    constexpr int kMostTimes = 4;
+    const double most = most_cells();
+    MeshedBody best = make_once(half_of(options_.progress, 0), half_of(options_.progress, 0.5));
+    std::vector<WantedSize> wanted = wanted_sizes(best);
+    for (int time = 1; time < kMostTimes && !wanted.empty(); ++time) {
+      sizes_ = refined(sizes_, box_, wanted, rules_);
+      for (const WantedSize& place : wanted) least_ = std::min(least_, place.size);
+      seconds_.sizes += watch_.lap();
+      if (cells_for_metric(sizes_, box_) > most) break;
+      MeshedBody next = make_once(end_of(options_.progress), end_of(options_.progress));
+      wanted = wanted_sizes(next);
+      if (distance_of(next) < distance_of(best)) best = std::move(next);
+    }
+    if (!options_.skins) best.skins.clear();
+    best.narrow_share = narrow_share(surfaces_, shape_, best.least_size);
+    seconds_.fit += watch_.lap();
+    seconds_.total = seconds_.sizes + seconds_.start + seconds_.body + seconds_.fit;
+    best.seconds = seconds_;
+    return best;
+  }
+
+ private:
+  static double longest_side(std::span<const TriMesh> surfaces) {
+    const Vec3 extent = bounding_box(surfaces).extent();
+    return std::max({extent.x, extent.y, extent.z});
+  }
+
+  /// Of which a mesh that is made again may consist: small ones may grow more.
+  double most_cells() const {
+    constexpr double kMostGrowth = 3, kFew = 200'000;
+    return std::min(std::max(kMostGrowth * cells_for_metric(sizes_, box_), kFew),
+                    static_cast<double>(options_.most_elements));
+  }
+
+  /// @return with the skins of all parts.
+  MeshedBody make_once(const Progress& of_start, const Progress& of_body) {
+    RemeshOptions remeshing;
+    remeshing.draft = true;
+    remeshing.progress = of_start;
+    start_ = remesh::remesh(start_, sizes_, remeshing);
+    seconds_.start += watch_.lap();
+    remeshing.draft = false;
+    remeshing.balanced = !options_.quadratic;  // whose mid-side nodes follow the surface
+    remeshing.progress = of_body;
+    MeshedBody body;
+    body.element_size = rules_.target;
+    body.least_size = least_;
+    body.elements = remesh_body(start_, sizes_, shape_, remeshing);
+    body.skins = body_skins(body.elements, surfaces_.size());
+    drop_small_parts(body, options_.part_share);
+    if (options_.quadratic) body.middles = mid_nodes(body.elements, shape_, box_);
+    body.quality = element_quality(body.elements.mesh);
+    seconds_.body += watch_.lap();
+    body.fit = measure_fit(body.elements, surfaces_, options_.tolerance);
+    seconds_.fit += watch_.lap();
+    return body;
+  }
+
+  /// Half the sizes that there are, where skins and surfaces are too far apart; none where that
+  /// would be below the least size that is allowed.
+  std::vector<WantedSize> wanted_sizes(const MeshedBody& body) const {
+    constexpr double kSmaller = 0.5;
+    std::vector<WantedSize> wanted;
+    if (distance_of(body) <= options_.tolerance) return wanted;
+    Index hint = 0;
+    for (std::size_t k = 0; k < surfaces_.size(); ++k) {
+      if (body.skins[k].triangles.empty()) continue;
+      for (const bool from_skin : {false, true}) {
+        const TriMesh& from = from_skin ? body.skins[k] : surfaces_[k];
+        const TriMesh& to = from_skin ? surfaces_[k] : body.skins[k];
+        for (const Vec3& p : missed_places(from, to, options_.tolerance)) {
+          const double size = kSmaller * size_at(sizes_, p, hint);
+          if (size >= least_allowed()) wanted.push_back({p, size});
+        }
+      }
+    }
+    return wanted;
+  }
+
+  /// That of the options is kept.
+  double least_allowed() const {
+    constexpr double kShare = 0.1;
+    return options_.least_size > 0 ? rules_.least : kShare * rules_.least;
+  }
+
+  std::span<const TriMesh> surfaces_;
+  const Box& box_;
+  const BodyOptions& options_;
+  Stopwatch watch_;
+  MeshedBody::Seconds seconds_;
+  SizeRules rules_;
+  double least_ = rules_.least;  ///< size asked for
+  BodySurface shape_;
+  GridMetricField sizes_;
+  TetMesh start_;
+};
+
 }  // namespace
 
 Box bounding_box(std::span<const TriMesh> surfaces) {
@@ -129,36 +255,7 @@ Box bounding_box(std::span<const TriMesh> surfaces) {
 
 MeshedBody make_body(std::span<const TriMesh> surfaces, const Box& box,
                      const BodyOptions& options) {
-  Stopwatch watch;
-  const Vec3 extent = bounding_box(surfaces).extent();
-  const SizeRules rules = size_rules(options, std::max({extent.x, extent.y, extent.z}));
-  MeshedBody body;
-  body.element_size = rules.target;
-  const BodySurface shape(surfaces, box, rules.tolerance);
-  body.least_size = rules.least;
-  body.narrow_share = narrow_share(surfaces, shape, rules.least);
-  const GridMetricField sizes = size_field(surfaces, shape, box, rules);
-  require_elements_fit(sizes, box, options, rules.target);
-  body.seconds.sizes = watch.lap();
-  RemeshOptions remeshing;
-  remeshing.draft = true;
-  remeshing.progress = half_of(options.progress, 0);
-  const TetMesh start = remesh::remesh(coarse_box_mesh(box), sizes, remeshing);
-  body.seconds.start = watch.lap();
-  remeshing.draft = false;
-  remeshing.balanced = !options.quadratic;  // whose mid-side nodes follow the surface
-  remeshing.progress = half_of(options.progress, 0.5);
-  body.elements = remesh_body(start, sizes, shape, remeshing);
-  if (options.skins) body.skins = body_skins(body.elements, surfaces.size());
-  drop_small_parts(body, options.part_share);
-  if (options.quadratic) body.middles = mid_nodes(body.elements, shape, box);
-  body.quality = element_quality(body.elements.mesh);
-  body.seconds.body = watch.lap();
-  body.fit = measure_fit(body.elements, surfaces, options.tolerance);
-  body.seconds.fit = watch.lap();
-  body.seconds.total =
-      body.seconds.sizes + body.seconds.start + body.seconds.body + body.seconds.fit;
-  return body;
+  return BodyMaker(surfaces, box, options).make();
 }
 
 }  // namespace mesamis::detail::body

@@ -88,17 +88,19 @@ void smooth(const TriMesh& surface, std::vector<double>& values) {
 /// Sizes at the nodes of a regular grid.
 class SizeGrid {
  public:
-  SizeGrid(const Box& box, const SizeRules& rules) : box_(box), rules_(rules) {
+  /// @param detail  mm: nodes need not be closer.
+  SizeGrid(const Box& box, const SizeRules& rules, double detail) : box_(box), rules_(rules) {
     constexpr double kMostNodes = 160;
     const Vec3 extent = box.extent();
     const double longest = std::max({extent.x, extent.y, extent.z});
-    const double spacing = std::max({rules.least, 0.5 * rules.target, longest / kMostNodes});
+    const double spacing = std::max(detail, longest / kMostNodes);
     for (int axis = 0; axis < 3; ++axis) {
       size_[axis] = std::max(2, static_cast<Index>(std::ceil(extent[axis] / spacing)) + 1);
       step_[axis] = extent[axis] / (size_[axis] - 1);
     }
     sizes_.assign(static_cast<std::size_t>(size_[0]) * size_[1] * size_[2],
                   std::numeric_limits<float>::infinity());
+    inside_.assign(sizes_.size(), true);
   }
 
   /// The shortest distance between nodes, mm; nothing smaller is told apart.
@@ -118,13 +120,25 @@ class SizeGrid {
     }
   }
 
+  /// Takes over what another field asks for where that is less.
+  void limit(const GridMetricField& field) {
+    parallel_for(sizes_.size(), [&](std::size_t n) {
+      Index hint = 0;
+      sizes_[n] = std::min(sizes_[n], static_cast<float>(size_at(field, position(n), hint)));
+    });
+  }
+
   /// Sizes inside grow to the target; outside they grow faster and without end.
   void spread(const BodySurface& shape) {
-    inside_.resize(sizes_.size());
     parallel_for(sizes_.size(), [&](std::size_t n) {
       inside_[n] = shape.material_at(position(n)) != kOutside;
       if (inside_[n]) sizes_[n] = std::min(sizes_[n], static_cast<float>(rules_.target));
     });
+    grow();
+  }
+
+  /// Sizes grow from node to node no faster than they may: as inside, unless spread() told.
+  void grow() {
     for (int sweep = 0; sweep < 2; ++sweep) {
       sweep_nodes(1);
       sweep_nodes(-1);
@@ -221,12 +235,27 @@ std::vector<double> surface_sizes(const TriMesh& surface, std::span<const double
 
 GridMetricField size_field(std::span<const TriMesh> surfaces, const BodySurface& shape,
                            const Box& box, const SizeRules& rules) {
-  SizeGrid grid(box, rules);
+  SizeGrid grid(box, rules, std::max(rules.least, 0.5 * rules.target));
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     const auto& thickness = shape.thickness(static_cast<Material>(k + 1));
     want_on_triangles(surfaces[k], surface_sizes(surfaces[k], thickness, rules), grid);
   }
   grid.spread(shape);
+  return grid.metric();
+}
+
+double size_at(const GridMetricField& sizes, const Vec3& p, Index& hint) {
+  return 1 / std::sqrt(sizes.at(p, hint).xx);
+}
+
+GridMetricField refined(const GridMetricField& sizes, const Box& box,
+                        std::span<const WantedSize> wanted, const SizeRules& rules) {
+  double smallest = rules.target;
+  for (const WantedSize& place : wanted) smallest = std::min(smallest, place.size);
+  SizeGrid grid(box, rules, smallest);
+  for (const WantedSize& place : wanted) grid.want(place.point, place.size);
+  grid.grow();
+  grid.limit(sizes);
   return grid.metric();
 }
 

@@ -42,4 +42,24 @@ std::vector<double> surface_sizes(const TriMesh& surface, std::span<const double
 GridMetricField size_field(std::span<const TriMesh> surfaces, const BodySurface& shape,
                            const Box& box, const SizeRules& rules);
 
+/// The size that an isotropic field asks for at a point, mm.
+/// @param hint  see MetricField::at().
+double size_at(const GridMetricField& sizes, const Vec3& p, Index& hint);
+
+/// A size that elements shall have at a point, mm.
+struct WantedSize {
+  Vec3 point;
+  double size = 0;
+};
+
+/// The sizes of a field, made smaller around some points, from which they grow with the gradation.
+/// @param sizes   isotropic, on the box.
+/// @param wanted  at least one.
+/// @param rules   of the field.
+///
+/// O(nodes of the grid), whose spacing is the smallest size wanted, but at most 160 to a side. The
+/// same bits for any number of threads.
+GridMetricField refined(const GridMetricField& sizes, const Box& box,
+                        std::span<const WantedSize> wanted, const SizeRules& rules);
+
 }  // namespace mesamis::detail::body

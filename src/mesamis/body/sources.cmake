@@ -12,6 +12,7 @@ set(ROOM_HEADERS
   material_law.h
   materials.h
   mid_nodes.h
+  missed_places.h
   rim.h
   size_field.h
   wall_width.h)
@@ -23,6 +24,7 @@ set(ROOM_SOURCES
   junction_lines.cpp
   make_body.cpp
   mid_nodes.cpp
+  missed_places.cpp
   size_field.cpp
   wall_width.cpp
   NEXT density.cpp

@@ -87,6 +87,17 @@ std::vector<FiniteElements::Part> parts_of(std::span<const FoundObject> objects)
   return parts;
 }
 
+/// What may keep skin and surface apart.
+std::string reasons_of_distance(const MeshedBody& facts) {
+  const std::int64_t dropped = facts.parts_dropped;
+  const std::string parts = dropped == 0 ? ""
+                                         : std::to_string(dropped) +
+                                               (dropped == 1 ? " part of the objects that was"
+                                                             : " parts of the objects that were") +
+                                               " dropped and ";
+  return ", with " + parts + "elements down to " + rounded_text(facts.least_size) + " mm";
+}
+
 /// Objects without an element, sets without a face.
 std::string missing_in(const BodyOutput& body, bool first) {
   std::string missing;
@@ -131,12 +142,7 @@ std::string unmet(const BodyOutput& body) {
   const double distance = std::max(fit.skin_to_surface, fit.surface_to_skin);
   expect(distance <= body.tolerance, "expected a distance to the surface, mm, of at most",
          body.tolerance, distance);
-  const std::int64_t dropped = body.facts.parts_dropped;
-  if (distance > body.tolerance && dropped > 0) {
-    missed += ", with " + std::to_string(dropped) +
-              (dropped == 1 ? " part of the objects that was" : " parts of the objects that were") +
-              " dropped";
-  }
+  if (distance > body.tolerance) missed += reasons_of_distance(body.facts);
   // The ratio is that of straight sides: what mid-side nodes add is not in it.
   const bool straight = body.elements.mid_nodes.empty();
   expect(!straight || std::abs(fit.volume_ratio - 1) <= 0.005,
