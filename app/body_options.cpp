@@ -44,7 +44,8 @@ void add_element_options(CLI::App& c, BodyArguments& a) {
       ->check(above_zero())
       ->each(note("--element-size"));
   c.add_option("--least-size", a.options.least_size,
-               "Shortest element edge wanted, mm (default: a quarter of --element-size)")
+               "Shortest element edge wanted, mm (default: a quarter of --element-size, less where "
+               "the skin misses --skin-tolerance)")
       ->check(above_zero())
       ->each(note("--least-size"));
   c.add_option(

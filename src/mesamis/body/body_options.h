@@ -16,10 +16,12 @@ namespace mesamis {
 /// The elements of a body.
 struct BodyOptions {
   double element_size = 0;  ///< wanted edge length, mm; 0: a thirtieth of the body's longest side
-  double least_size = 0;    ///< shortest edge wanted, mm; 0: a quarter of the element size
-  double tolerance = 0.1;   ///< largest distance of the skin from the surfaces, mm, > 0
-  double gradation = 0.5;   ///< growth of sizes over a length, no unit, > 0
-  int through_wall = 1;     ///< elements wanted between two sides of a wall; 0: any
+  /// Shortest edge wanted, mm; 0: a quarter of the element size, less where the skin misses the
+  /// tolerance.
+  double least_size = 0;
+  double tolerance = 0.1;  ///< largest distance of the skin from the surfaces, mm, > 0
+  double gradation = 0.5;  ///< growth of sizes over a length, no unit, > 0
+  int through_wall = 1;    ///< elements wanted between two sides of a wall; 0: any
   /// Parts with a smaller share of the volume of each object are left out, because a solver cannot
   /// support loose parts; 0: none.
   double part_share = 1e-3;

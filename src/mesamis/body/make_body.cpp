@@ -209,12 +209,13 @@ class BodyMaker {
     constexpr double kSmaller = 0.5;
     std::vector<WantedSize> wanted;
     if (distance_of(body) <= options_.tolerance) return wanted;
+    const auto skins = has_broken(body) ? body_skins(body.elements, surfaces_.size()) : body.skins;
     Index hint = 0;
     for (std::size_t k = 0; k < surfaces_.size(); ++k) {
-      if (body.skins[k].triangles.empty()) continue;
+      if (skins[k].triangles.empty()) continue;
       for (const bool from_skin : {false, true}) {
-        const TriMesh& from = from_skin ? body.skins[k] : surfaces_[k];
-        const TriMesh& to = from_skin ? surfaces_[k] : body.skins[k];
+        const TriMesh& from = from_skin ? skins[k] : surfaces_[k];
+        const TriMesh& to = from_skin ? surfaces_[k] : skins[k];
         for (const Vec3& p : missed_places(from, to, options_.tolerance)) {
           const double size = kSmaller * size_at(sizes_, p, hint);
           if (size >= least_allowed()) wanted.push_back({p, size});
@@ -222,6 +223,14 @@ class BodyMaker {
       }
     }
     return wanted;
+  }
+
+  /// Whether a part was dropped that the surfaces hold by a neck, which was lost.
+  bool has_broken(const MeshedBody& body) const {
+    if (body.parts_dropped == 0) return false;
+    std::int64_t pieces = 0;
+    for (const TriMesh& surface : surfaces_) pieces += check_surface(surface).components;
+    return body.parts + body.parts_dropped > pieces;
   }
 
   /// That of the options is kept.

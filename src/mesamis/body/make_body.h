@@ -23,7 +23,7 @@ struct MeshedBody {
   double element_size = 0;     ///< that was aimed at, mm
   std::int64_t parts = 0, parts_dropped = 0;  ///< connected by faces
   BodyFit fit;                                ///< to the surfaces; parts that were dropped count
-  double least_size = 0;                      ///< that was aimed at, mm
+  double least_size = 0;                      ///< the smallest that was aimed at, mm
   double narrow_share = 0;  ///< of the surfaces' area: where a wall or a gap is narrower than that
   struct Seconds {
     double sizes = 0, start = 0, body = 0, fit = 0, total = 0;
@@ -38,7 +38,10 @@ Box bounding_box(std::span<const TriMesh> surfaces);
 /// Fills surfaces with well shaped tetrahedra, whose boundary lies within the tolerance of them.
 ///
 /// Sizes follow the element size, curvature and thickness (size_field()); a mesh of the box is made
-/// for them (remesh()), cut at the surfaces and improved with its skin kept (remesh_body()).
+/// for them (remesh()), cut at the surfaces and improved with its skin kept (remesh_body()). Where
+/// skin and surfaces are farther apart than the tolerance, all this is done again, three times at
+/// most, with half the sizes there, unless that is below a least size that is given or asks for
+/// three times as many elements. The nearest body is returned.
 /// The boundary of one object alone is a 2-manifold. Of several objects each has a closed boundary,
 /// which may touch itself where three of them, or two and the outside, meet.
 /// @param surfaces  1 to 255 objects, closed, 2-manifold, oriented outward, mm; what two share is
