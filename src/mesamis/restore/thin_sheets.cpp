@@ -318,7 +318,7 @@ class SheetFinder {
     const double gain = std::clamp(kRise / std::max(seen.middle - seen.face, 1e-3), 1.0, kMostGain);
     const double face =
         kind == SheetKind::kWall ? face_of_wall(seen, peak, thickness / blur.voxel) : seen.face;
-    return {std::max(0.0, 0.5 - face), weight, 1 + (gain - 1) * weight};
+    return {0.5 - face, weight, 1 + (gain - 1) * weight};
   }
 
   /// What the faces of a wall have: less than E(t) where the image is below what it would be of a
