@@ -8,7 +8,6 @@
 #include "mesamis/base/error.h"
 #include "mesamis/base/parallel.h"
 #include "mesamis/fit/bending.h"
-#include "mesamis/fit/image_edge.h"
 #include "mesamis/fit/surface_moves.h"
 #include "mesamis/surface/self_intersections.h"
 
@@ -97,8 +96,8 @@ class Fit {
       if (aims_[p] == 0) return;
       ImageEdge edge;
       if (looks(p)) {
-        edge = find_image_edge(space_, now_.points[p], normals[p], points_.contrast[p],
-                               options_.reach);
+        edge = find_image_edge(space_, now_.points[p], normals[p],
+                               {points_.contrast[p], options_.reach, options_.sheets});
       }
       const double stay = (1 - edge.weight) * options_.start;
       const Vec3 seen = now_.points[p] + (edge.distance * space_.voxel()) * normals[p];

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesamis/fit/bending.h"
+#include "mesamis/fit/image_edge.h"
 #include "mesamis/image/spline_image.h"
 #include "mesamis/surface/tri_mesh.h"
 
@@ -16,6 +17,7 @@ struct FitOptions {
   double bending = 40;  ///< weight of even shifts against a steep edge of the image, > 0
   double start = 0.1;   ///< weight of the place where a point was, against the same, > 0
   int rounds = 6;       ///< of looking for edges and solving, at least 1
+  SheetLevel sheets{};  ///< of the image
 };
 
 /// What is known of the points of a surface that is to be fitted; one entry each per point.

@@ -8,7 +8,6 @@
 
 #include "mesamis/base/parallel.h"
 #include "mesamis/fit/bending.h"
-#include "mesamis/fit/fit_surface.h"
 #include "mesamis/fit/keep_volumes.h"
 #include "mesamis/fit/smooth_surface.h"
 #include "mesamis/fit/split_bends.h"
@@ -250,7 +249,8 @@ PartitionSurface fit_boundaries(PartitionSurface partition, const SplineImage& i
   BoundaryParts parts = parts_of_boundaries(start, partition.sides);
   parts.scale_to(aims.volumes);
   const TriMesh smooth = smoothed({start, points.links, &parts}, points.on_curve, grid, smoothing);
-  const TriMesh fitted = fit_surface(smooth, image, points, {.reach = aims.reach});
+  const TriMesh fitted =
+      fit_surface(smooth, image, points, {.reach = aims.reach, .sheets = aims.sheets});
   return of_materials(split_and_moved(fitted, parts, points.on_curve, grid,
                                       [](const SplitBoundaries& split) { return split.shifts; }),
                       parts);

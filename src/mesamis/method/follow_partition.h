@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "mesamis/fit/fit_surface.h"
 #include "mesamis/image/spline_image.h"
 #include "mesamis/labels/pair_levels.h"
 #include "mesamis/surface/partition.h"
@@ -61,6 +62,7 @@ struct BoundaryAims {
   const std::vector<BoundaryGuide>& guides;  ///< of points
   std::span<const double> volumes{};         ///< of each material, mm^3, before the image is seen
   double reach = 0;                          ///< voxels, > 0, see FitOptions
+  fit::SheetLevel sheets{};                  ///< of the image
 };
 
 /// Smooths the boundaries of several objects and fits them to an image, with what they share:

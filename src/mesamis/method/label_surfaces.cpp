@@ -58,11 +58,21 @@ void bring_to_world(const VoxelGrid& grid, PartitionSurface& partition) {
 /// What was prepared of an image, and its edges, one v per voxel, where labels flow to them.
 struct Edges {
   Prepared prepared;
+  fit::SheetLevel sheets;
   std::vector<float> v;
 };
 
+/// At which level sheets were lifted, if they were.
+fit::SheetLevel sheets_of(const Chosen& choice) {
+  const Parameters& p = choice.parameters;
+  if (!p.restore) return {};
+  const ObjectContrast& contrast = choice.object.contrast;
+  return {p.grey.to_grey(contrast.half_maximum()),
+          contrast.difference() * p.grey.grey_per_native()};
+}
+
 Edges find_edges(const Volume& scan, const Chosen& choice, bool flows) {
-  Edges edges{prepare_slab(scan, {}, choice), {}};
+  Edges edges{prepare_slab(scan, {}, choice), sheets_of(choice), {}};
   if (!flows) return edges;
   const RunInput run(edges.prepared);
   const Parameters& p = run.parameters;
@@ -224,9 +234,10 @@ GridMemberships flow_to_edges(const LabelRun& run, const GridMemberships& smooth
 }
 
 /// Moves boundaries on to the image.
-void move_to_image(const LabelRun& run, const RunInput& input,
+void move_to_image(const LabelRun& run, const Edges& edges,
                    const std::vector<BoundaryGuide>& guides, LayerBoundaries& found) {
   if (!run.settings.follow) return;
+  const RunInput input(edges.prepared);
   PartitionSurface before = std::move(found.partition);
   if (!run.settings.fit) {
     found.partition = follow_image(std::move(before), input.image, guides, input.noise);
@@ -234,7 +245,8 @@ void move_to_image(const LabelRun& run, const RunInput& input,
   }
   double reach = kReachOfFit * run.margin / input.grey.voxel_size();
   if (!run.starts_from_labels(input.grey)) reach = std::min(reach, kReachAfterFlow);
-  found.partition = fit_boundaries(std::move(before), input.image, {guides, found.volumes, reach});
+  found.partition =
+      fit_boundaries(std::move(before), input.image, {guides, found.volumes, reach, edges.sheets});
 }
 
 /// Boundaries between all labels, in the block's axes: of the labels alone where they start
@@ -277,7 +289,7 @@ LayerBoundaries place_by_image(const LabelRun& run, LayerBoundaries found, const
   found.partition = without_narrow_contacts(run, layer, input.grey, std::move(found.partition));
   auto guides = guides_of_points(found.partition, pairs, input.noise);
   found.partition = only_chosen(found.partition, marks_of(run.chosen, layer), guides);
-  move_to_image(run, input, guides, found);
+  move_to_image(run, edges, guides, found);
   bring_to_world(input.grey, found.partition);
   seconds.surface += watch.lap();
   return found;
