@@ -129,7 +129,7 @@ class SheetProfiles {
 
 /// How far a sheet has to rise for its faces to have half of the contrast.
 struct Lift {
-  double rise = 0;    ///< of the contrast
+  double rise = 0;    ///< of the contrast; negative: they are too high
   double weight = 0;  ///< 0 to 1: how surely there is a sheet, and how near to the voxel
   double gain = 1;    ///< of the distance from the half maximum, after the rise
 };
@@ -318,7 +318,9 @@ class SheetFinder {
     const double gain = std::clamp(kRise / std::max(seen.middle - seen.face, 1e-3), 1.0, kMostGain);
     const double face =
         kind == SheetKind::kWall ? face_of_wall(seen, peak, thickness / blur.voxel) : seen.face;
-    return {0.5 - face, weight, 1 + (gain - 1) * weight};
+    // Gaps of two voxels, which come out a little too wide, stay open.
+    const double rise = kind == SheetKind::kWall ? 0.5 - face : std::max(0.0, 0.5 - face);
+    return {rise, weight, 1 + (gain - 1) * weight};
   }
 
   /// What the faces of a wall have: less than E(t) where the image is below what it would be of a
