@@ -21,19 +21,22 @@ constexpr int kAcross = 22;  // samples from a sheet's middle to its other face
 /// the sheets' contrast.
 constexpr double kAtLevel = 0.1, kBeyondLevel = 0.2;
 
-/// Samples along a normal, turned so that they fall outwards.
+/// Samples along a normal, turned so that they fall outwards. Those near the point are kept.
 class Profile {
  public:
   Profile(const FollowSpace& space, const Vec3& point, const Vec3& normal, double contrast,
           int reach)
-      : middle_(reach + kSides + kAcross), sign_(contrast > 0 ? 1 : -1) {
+      : space_(space),
+        point_(point),
+        normal_(normal),
+        sign_(contrast > 0 ? 1 : -1),
+        middle_(reach + kSides) {
     values_.reserve(2 * static_cast<std::size_t>(middle_) + 1);
-    for (int i = -middle_; i <= middle_; ++i) {
-      values_.push_back(sign_ * space.value_at(point + (i * kStep * space.voxel()) * normal));
-    }
+    for (int i = -middle_; i <= middle_; ++i) values_.push_back(value_at(i));
   }
 
   double at(int i) const {
+    if (std::abs(i) > middle_) return value_at(i);
     return values_[static_cast<std::size_t>(i) + static_cast<std::size_t>(middle_)];
   }
   double turned(double value) const { return sign_ * value; }
@@ -41,8 +44,14 @@ class Profile {
   double fall(int i) const { return (at(i - 1) - at(i + 1)) / (2 * kStep); }
 
  private:
-  int middle_;
+  double value_at(int i) const {
+    return turned(space_.value_at(point_ + (i * kStep * space_.voxel()) * normal_));
+  }
+
+  const FollowSpace& space_;
+  Vec3 point_, normal_;
   double sign_;
+  int middle_;
   std::vector<double> values_;
 };
 
@@ -79,15 +88,16 @@ int extreme_sample(const Profile& profile, int place, Side side) {
 double sheet_share(const Profile& profile, int extreme, double level, Side side,
                    const SheetLevel& sheets) {
   const int way = static_cast<int>(side);
+  const double beyond =
+      way * (profile.turned(sheets.level) - profile.at(extreme)) / sheets.contrast;
+  if (beyond <= kAtLevel) return 0;
   const auto belongs = [&](int i) { return way * (profile.at(i) - level) < 0; };
   int first = extreme, last = extreme;
   while (first > extreme - kAcross && belongs(first)) --first;
   while (last < extreme + kAcross && belongs(last)) ++last;
   const double width = kStep * (last - first);
-  const double beyond =
-      way * (profile.turned(sheets.level) - profile.at(extreme)) / sheets.contrast;
   return std::clamp((kNoSheet - width) / (kNoSheet - kSureSheet), 0.0, 1.0) *
-         std::clamp((beyond - kAtLevel) / (kBeyondLevel - kAtLevel), 0.0, 1.0);
+         std::min((beyond - kAtLevel) / (kBeyondLevel - kAtLevel), 1.0);
 }
 
 /// The level at which an edge lies: half way between its sides, or that of the sheets.
