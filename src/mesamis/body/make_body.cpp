@@ -71,10 +71,9 @@ std::vector<Index> cells_kept(const BodyMesh& body, const std::vector<Index>& pa
 }
 
 /// Leaves out the parts that hang on nothing.
-void drop_small_parts(MeshedBody& body, double share) {
+/// @param parts  of each cell its part.
+void drop_small_parts(MeshedBody& body, const std::vector<Index>& parts, double share) {
   BodyMesh& elements = body.elements;
-  const std::vector<Index> parts = face_parts(elements.mesh);
-  body.parts = *std::ranges::max_element(parts) + 1;
   if (body.parts == 1 || share <= 0) return;
   const std::vector<Index> kept = cells_kept(elements, parts, share);
   std::vector<Material> materials;
@@ -149,13 +148,13 @@ class BodyMaker {
     const double most = most_cells();
     MeshedBody best = make_once(half_of(options_.progress, 0), half_of(options_.progress, 0.5));
     std::vector<WantedSize> wanted = wanted_sizes(best);
-    for (int time = 1; time < kMostTimes && !wanted.empty(); ++time) {
+    for (int time = 2; !wanted.empty(); ++time) {
       sizes_ = refined(sizes_, box_, wanted, rules_);
       for (const WantedSize& place : wanted) least_ = std::min(least_, place.size);
       seconds_.sizes += watch_.lap();
       if (cells_for_metric(sizes_, box_) > most) break;
       MeshedBody next = make_once(end_of(options_.progress), end_of(options_.progress));
-      wanted = wanted_sizes(next);
+      wanted = time < kMostTimes ? wanted_sizes(next) : std::vector<WantedSize>{};
       if (distance_of(next) < distance_of(best)) best = std::move(next);
     }
     if (!options_.skins) best.skins.clear();
@@ -179,7 +178,7 @@ class BodyMaker {
                     static_cast<double>(options_.most_elements));
   }
 
-  /// @return with the skins of all parts.
+  /// @return with the skins of all parts, if they are delivered or parts may have been dropped.
   MeshedBody make_once(const Progress& of_start, const Progress& of_body) {
     RemeshOptions remeshing;
     remeshing.draft = true;
@@ -193,8 +192,12 @@ class BodyMaker {
     body.element_size = rules_.target;
     body.least_size = least_;
     body.elements = remesh_body(start_, sizes_, shape_, remeshing);
-    body.skins = body_skins(body.elements, surfaces_.size());
-    drop_small_parts(body, options_.part_share);
+    const std::vector<Index> parts = face_parts(body.elements.mesh);
+    body.parts = *std::ranges::max_element(parts) + 1;
+    if (options_.skins || body.parts > 1) {
+      body.skins = body_skins(body.elements, surfaces_.size());
+    }
+    drop_small_parts(body, parts, options_.part_share);
     if (options_.quadratic) body.middles = mid_nodes(body.elements, shape_, box_);
     body.quality = element_quality(body.elements.mesh);
     seconds_.body += watch_.lap();
@@ -209,7 +212,8 @@ class BodyMaker {
     constexpr double kSmaller = 0.5;
     std::vector<WantedSize> wanted;
     if (distance_of(body) <= options_.tolerance) return wanted;
-    const auto skins = has_broken(body) ? body_skins(body.elements, surfaces_.size()) : body.skins;
+    const bool anew = body.skins.empty() || has_broken(body);
+    const auto skins = anew ? body_skins(body.elements, surfaces_.size()) : body.skins;
     Index hint = 0;
     for (std::size_t k = 0; k < surfaces_.size(); ++k) {
       if (skins[k].triangles.empty()) continue;

@@ -7,7 +7,9 @@
 #include <limits>
 
 #include "mesamis/base/parallel.h"
+#include "mesamis/body/triangle_lattice.h"
 #include "mesamis/surface/half_edges.h"
+#include "mesamis/surface/triangle_tree.h"
 
 namespace mesamis::detail::body {
 namespace {
@@ -203,17 +205,13 @@ class SizeGrid {
 /// Sizes at the corners and, so that large triangles leave no gap, at points within a spacing.
 void want_on_triangles(const TriMesh& surface, const std::vector<double>& sizes, SizeGrid& grid) {
   for (const Triangle& t : surface.triangles) {
-    const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
     const double smallest =
         std::max(grid.spacing(), std::min({sizes[t[0]], sizes[t[1]], sizes[t[2]]}));
-    const double longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
-    const int n = static_cast<int>(std::ceil(std::min(longest / smallest, 1000.0)));
-    for (int i = 0; i <= n; ++i) {
-      for (int j = 0; i + j <= n; ++j) {
-        const double u = double(i) / n, v = double(j) / n, w = 1 - u - v;
-        grid.want(w * a + u * b + v * c, w * sizes[t[0]] + u * sizes[t[1]] + v * sizes[t[2]]);
-      }
-    }
+    visit_lattice(surface::corners_of(surface, t), smallest,
+                  [&](const Vec3& p, const auto& weights) {
+                    const auto [w, u, v] = weights;
+                    grid.want(p, w * sizes[t[0]] + u * sizes[t[1]] + v * sizes[t[2]]);
+                  });
   }
 }
 

@@ -55,7 +55,8 @@ void bring_to_world(const VoxelGrid& grid, PartitionSurface& partition) {
   for (Triangle& t : partition.triangles) std::swap(t[1], t[2]);
 }
 
-/// What was prepared of an image, and its edges, one v per voxel, where labels flow to them.
+/// What was prepared of an image, the level of its sheets, and its edges, one v per voxel, where
+/// labels flow to them.
 struct Edges {
   Prepared prepared;
   fit::SheetLevel sheets;

@@ -25,9 +25,9 @@ struct SheetOptions {
 /// A sheet of thickness t appears in an image of blur s with the peak 2 Phi(t / 2s) - 1 of the
 /// contrast. Where the contrast of thick parts is known, the peak tells the thickness, also far
 /// below the blur (Treece et al. 2010 use this for cortical bone), and the thickness tells the
-/// value E(t) that the restored image has at the sheet's faces. The difference of E(t) and one half
-/// of the contrast is added to the sheet, so that the level of half maximum runs along its faces. It is
-/// negative for walls of some two voxels whose faces the filter raises; gaps are never narrowed.
+/// value E(t) that the restored image has at the sheet's faces. What E(t) lacks of one half of the
+/// contrast is added to the sheet, so that the level of half maximum runs along its faces. It is
+/// negative for walls of some two voxels, whose faces the filter raises; gaps are never narrowed.
 ///
 /// Where the restored image is lower in the middle of a wall than the model has it (bone that is
 /// less dense, a wall that bends), E is lowered in proportion, and walls thinner than half a voxel
